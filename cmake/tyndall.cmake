@@ -1,0 +1,32 @@
+# Settings that every target of the house shares, and the one way to add a folder's library.
+
+include(GNUInstallDirs)
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+    set(CMAKE_BUILD_TYPE Release)
+endif()
+
+add_library(tyndall_options INTERFACE)
+# -ffp-contract=off: the walk's edge tests must be antisymmetric to the last bit (mesh/walk.h), and
+# results must not depend on whether the machine has fused multiply-add.
+target_compile_options(tyndall_options INTERFACE -Wall -Wextra -ffp-contract=off
+                       $<$<BOOL:${TYNDALL_WERROR}>:-Werror>)
+
+# tyndall_library(FOLDER): the static library tyndall_FOLDER from FOLDER/*.cpp, include prefix "FOLDER/".
+function(tyndall_library folder)
+    file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+    file(GLOB headers CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.h)
+    list(FILTER sources EXCLUDE REGEX "_main\\.cpp$")
+    add_library(tyndall_${folder} STATIC ${sources} ${headers})
+    add_library(Tyndall::${folder} ALIAS tyndall_${folder})
+    target_link_libraries(tyndall_${folder} PRIVATE $<BUILD_INTERFACE:tyndall_options>)
+    target_include_directories(tyndall_${folder} PUBLIC
+        $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/tyndall>)
+    target_compile_features(tyndall_${folder} PUBLIC cxx_std_20)
+    set_target_properties(tyndall_${folder} PROPERTIES EXPORT_NAME ${folder})
+endfunction()

@@ -1,0 +1,77 @@
+// The scene as the solver sees it: the base mesh, and what every facet side and region is made of.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "mesh/base_mesh.h"
+#include "mesh/conform.h"
+#include "mesh/tetrahedralize.h"
+#include "radiosity/scene.h"
+
+namespace tyndall::radiosity {
+
+using mesh::FacetId;
+using mesh::RegionId;
+using mesh::Side;
+using mesh::TetId;
+
+// One side of a surface: what exchange and net power speak of. "room.floor+" is the front of room.floor.
+struct SurfaceSide {
+    std::string name;         // with + or − (the hull: "outside")
+    std::size_t surface = 0;  // index into Scene::surfaces
+    Side side = Side::front;
+    Spectrum reflectance;     // rho [-]
+    Spectrum emission;        // I_e [W/m^2/sr]
+    double area = 0.0;        // that faces a region light can be in [m^2]
+};
+
+// A medium as it is solved: isotropic, with the reduced coefficients of an anisotropic one.
+struct MediumOptics {
+    std::string name;
+    Spectrum extinction;  // kappa_t [1/m]
+    Spectrum albedo;      // a of the one equation: Omega, or 1 where heat is given [-]
+    Spectrum emission;    // e of the one equation: (1−Omega) J_e, or Q/(4 kappa_t), times 1/pi [W/m^2/sr]
+    Spectrum absorption;  // kappa_a [1/m]
+};
+
+inline constexpr std::uint32_t none = 0xffffffffu;
+
+// Invariants: a solid region has no medium; no facet side that faces a solid region has a SurfaceSide.
+struct Enclosure {
+    std::size_t bands = 1;
+    mesh::BaseMesh mesh;
+    std::vector<SurfaceSide> sides;
+    std::vector<std::array<std::uint32_t, 2>> facet_sides;  // of each facet: index into sides of front, back; none
+    std::vector<MediumOptics> media;
+    std::vector<std::uint32_t> region_medium;  // of each region: index into media; none: empty space
+    std::vector<bool> region_solid;            // of each region
+    std::vector<Light> lights;
+    Spectrum environment;                      // radiance from outside [W/m^2/sr]
+    bool open = false;                         // some active region reaches the hull
+    std::vector<std::string> warnings;
+
+    std::uint32_t medium_of(TetId tet) const { return region_medium[mesh.regions[tet.value].value]; }
+    bool solid(TetId tet) const { return region_solid[mesh.regions[tet.value].value]; }
+    // kappa_t of a base tet, 0 in empty space [1/m].
+    double extinction(TetId tet, std::size_t band) const {
+        const auto medium = medium_of(tet);
+        return medium == none ? 0.0 : media[medium].extinction[band];
+    }
+};
+
+struct EnclosureOptions {
+    mesh::ConformOptions conform;
+    mesh::TetrahedralizeOptions tetrahedralize;
+};
+
+// Purpose: conform the surfaces, tetrahedralize, tell solid from empty from filled, bind optics.
+// Errors: mesh::InputError with file:line:column (Scene's `where`) and name: what cannot be meshed;
+//   a medium point in no region, on a wall or outside; two media that claim one region; a power on
+//   a surface without area; a closed region with a source, no absorption and no opening.
+// Cost: dominated by CGAL and TetGen; about 1 s for a thousand facets.
+Enclosure make_enclosure(const Scene& scene, const EnclosureOptions& options = {});
+
+}  // namespace tyndall::radiosity
