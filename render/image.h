@@ -7,18 +7,29 @@
 
 namespace tyndall::render {
 
-// A rectangle of pixels; `channels` values a pixel (one a band, or one for depth). Row 0 is the top.
+// A rectangle of pixels; `channels` values a pixel (one a band, or one for depth). Row 0 is the
+// top.
 struct Layer {
-    std::string name;              // "beauty", "single_scattering", …
+    std::string name;  // "beauty", "single_scattering", …
     std::size_t channels = 1;
-    std::vector<float> values;     // height × width × channels; radiance [W/m^2/sr] but for transmittance [-], depth [m]
+    std::vector<float> values;  // height × width × channels; radiance [W/m^2/sr] but for
+                                // transmittance [-], depth [m]
 };
 
 struct Image {
     std::size_t width = 0, height = 0;
-    std::vector<Layer> layers;     // layers[0] is the picture itself, "beauty"
+    std::vector<Layer> layers;  // layers[0] is the picture itself, "beauty"
 
     const Layer* find(const std::string& name) const;
 };
+
+// Purpose: the layer of that name; "" is the picture itself, and "direct_single" the sum
+//   emission + surfaces_direct + single_scattering, what light does with at most one scattering.
+// Errors: mesh::InputError that lists the layers there are.
+// Cost: a copy of the layer.
+Layer select_layer(const Image& image, const std::string& name);
+
+// Throws std::logic_error if an image has no layer, or a layer's size is not the image's.
+void check_sizes(const Image& image);
 
 }  // namespace tyndall::render
