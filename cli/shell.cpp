@@ -52,8 +52,9 @@ std::vector<std::string> flag_names(const CLI::App& app) {
 std::string wording(const CLI::App& app, const CLI::ParseError& error) {
     const auto chosen = app.get_subcommands();
     const auto& command = chosen.empty() ? app : *chosen.front();
-    const auto rest = app.remaining(true);
-    if (error.get_name() != "ExtrasError" || rest.empty()) return error.what();
+    const auto rest = command.remaining();
+    if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr || rest.empty())
+        return error.what();
     const auto& first = rest.front();
     const auto name = first.substr(0, first.find('='));
     if (first.size() > 1 && first[0] == '-')
@@ -79,7 +80,7 @@ int fail(const std::string& message) {
 Shell::Shell()
     : app_(std::make_unique<CLI::App>(
           "Adaptive-mesh radiosity for surfaces and participating media", "tyndall")) {
-    app_->set_version_flag("--version", "tyndall " TYNDALL_VERSION);
+    app_->set_version_flag("--version", "tyndall " TYNDALL_VERSION, "The version");
     app_->set_help_flag("-h,--help", "This help");
     app_->footer(top_examples);
     app_->require_subcommand(1);
