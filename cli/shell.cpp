@@ -52,13 +52,17 @@ std::vector<std::string> flag_names(const CLI::App& app) {
 std::string wording(const CLI::App& app, const CLI::ParseError& error) {
     const auto chosen = app.get_subcommands();
     const auto& command = chosen.empty() ? app : *chosen.front();
-    const auto rest = command.remaining();
+    const auto rest = app.remaining(true);
     if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr || rest.empty())
         return error.what();
     const auto& first = rest.front();
     const auto name = first.substr(0, first.find('='));
+    const auto flags = flag_names(command);
+    if (std::find(flags.begin(), flags.end(), name) != flags.end())
+        return fmt::format("'{}' belongs behind the command: tyndall {} … {}", name,
+                           command.get_name(), first);
     if (first.size() > 1 && first[0] == '-')
-        return fmt::format("unknown flag '{}'{}", name, did_you_mean(name, flag_names(command)));
+        return fmt::format("unknown flag '{}'{}", name, did_you_mean(name, flags));
     return fmt::format("'{}' is one argument too many", first);
 }
 
@@ -104,11 +108,20 @@ int Shell::usage_error(const std::string& message) const {
     return wrong_usage;
 }
 
+int Shell::help(const std::string& name) const {
+    const auto names = command_names(*app_);
+    if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end())
+        return usage_error(fmt::format("unknown command '{}'{}", name, did_you_mean(name, names)));
+    write_output(name.empty() ? app_->help() : app_->get_subcommand(name)->help());
+    return done;
+}
+
 int Shell::parse_and_run(int argc, const char* const* argv) {
     if (argc < 2) {
         fmt::print(stderr, "{}", app_->help());
         return wrong_usage;
     }
+    if (std::strcmp(argv[1], "help") == 0) return help(argc > 2 ? argv[2] : "");
     if (const auto name = unknown_command(*app_, argc, argv); !name.empty())
         return usage_error(
             fmt::format("unknown command '{}'{}", name, did_you_mean(name, command_names(*app_))));

@@ -86,7 +86,10 @@ TEST_CASE("help and version go to stdout, and are no failure") {
     CHECK_THAT(help.out, Contains("compare") && Contains("Examples"));
     CHECK(help.err.empty());
     CHECK(place.run("--version").out.rfind("tyndall ", 0) == 0);
+    CHECK(place.run("help").out == help.out);
     const auto compare = place.run("compare --help");
+    CHECK(place.run("help compare").out.size() + 8 >= compare.out.size());
+    CHECK(place.run("help comprae").code == 2);
     CHECK(compare.code == 0);
     CHECK_THAT(compare.out, Contains("--layer") && Contains("--threads") && Contains("Examples"));
 }
@@ -102,6 +105,9 @@ TEST_CASE("wrong usage exits with 2 and says what was meant") {
     const auto flag = place.run("compare a.pfm b.pfm --laier=x");
     CHECK(flag.code == 2);
     CHECK_THAT(flag.err, Contains("'--laier'") && Contains("did you mean '--layer'"));
+    const auto early = place.run("--quiet compare a.pfm b.pfm");
+    CHECK(early.code == 2);
+    CHECK_THAT(early.err, Contains("behind the command"));
     const auto missing = place.run("compare a.pfm");
     CHECK(missing.code == 2);
     CHECK_THAT(missing.err, Contains("B is required") && Contains("tyndall compare --help"));

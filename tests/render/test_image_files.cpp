@@ -6,13 +6,19 @@ using Catch::Matchers::Contains;
 using Catch::Matchers::Contains;
 #endif
 
+#include <ImfChannelList.h>
+#include <ImfFrameBuffer.h>
+#include <ImfHeader.h>
+#include <ImfOutputFile.h>
 #include <unistd.h>
+
+#include <array>
 
 #include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <limits>
-#include <set>
+#include <map>
 #include <stdexcept>
 
 #include "mesh/input_error.h"
@@ -122,13 +128,52 @@ TEST_CASE("EXR: damaged bytes give an error or a picture, never a crash") {
 }
 
 TEST_CASE("EXR: an absurd size in the header is refused before memory is asked for") {
-    auto bytes = encode_exr(picture(1));
-    const auto at = bytes.find("dataWindow");
+    const auto whole = encode_exr(picture(1));
+    const auto at = whole.find("dataWindow");
     REQUIRE(at != std::string::npos);
-    // name\0 box2i\0 size(4) xMin yMin xMax yMax
-    const std::int32_t huge = 2000000000;
-    std::memcpy(&bytes[at + 11 + 6 + 4 + 8], &huge, 4);
-    CHECK_THROWS_AS(decode_exr(bytes), mesh::InputError);
+    const std::size_t x_max = at + 11 + 6 + 4 + 8,
+                      y_max = x_max + 4;  // behind name, type, size, minima
+    const auto with = [&](std::size_t corner, std::int32_t side) {
+        auto bytes = whole;
+        std::memcpy(&bytes[corner], &side, 4);
+        return bytes;
+    };
+    CHECK_THROWS_AS(decode_exr(with(x_max, 2000000000)), mesh::InputError);
+    CHECK_THROWS_AS(decode_exr(with(y_max, 2000000000)), mesh::InputError);
+    CHECK_THROWS_AS(decode_exr(with(y_max, 100000)), mesh::InputError);
+    CHECK_THROWS_AS(decode_exr(with(y_max, -5)), mesh::InputError);
+}
+
+TEST_CASE("EXR: files of other programs: half floats, alpha, depth, layers, a shifted window") {
+    const Folder folder;
+    const auto path = folder.path / "other.exr";
+    {
+        Imf::Header header(4, 4);
+        header.dataWindow() = Imath::Box2i({10, -3}, {11, -3});  // 2 × 1 pixels, elsewhere
+        header.compression() = Imf::PIZ_COMPRESSION;
+        Imf::FrameBuffer pixels;
+        std::map<std::string, std::array<Imath::half, 2>> values{
+            {"R", {1.0f, 2.0f}},        {"G", {3.0f, 4.0f}},       {"B", {5.0f, 6.0f}},
+            {"A", {0.5f, 0.25f}},       {"Z", {7.0f, 8.0f}},       {"albedo.R", {0.1f, 0.2f}},
+            {"albedo.G", {0.0f, 1.0f}}, {"albedo.B", {0.5f, 0.5f}}};
+        for (auto& [name, pair] : values) {
+            header.channels().insert(name, Imf::Channel(Imf::HALF));
+            pixels.insert(name, Imf::Slice::Make(Imf::HALF, pair.data(), header.dataWindow()));
+        }
+        Imf::OutputFile file(path.c_str(), header);
+        file.setFrameBuffer(pixels);
+        file.writePixels(1);
+    }
+    const auto image = read_image(path);
+    CHECK(image.width == 2);
+    CHECK(image.height == 1);
+    REQUIRE(image.layers.size() == 3);
+    CHECK(image.layers[0].name == "beauty");
+    CHECK(image.layers[0].values == std::vector<float>{1, 3, 5, 2, 4, 6});
+    REQUIRE(image.find("depth"));
+    CHECK(image.find("depth")->values == std::vector<float>{7, 8});
+    REQUIRE(image.find("albedo"));
+    CHECK(image.find("albedo")->channels == 3);
 }
 
 TEST_CASE("PFM: what is written is read, and rows go from the bottom up") {
