@@ -7,16 +7,18 @@
 
 namespace tyndall::render {
 
-// A rectangle of pixels; `channels` values a pixel (one a band, or one for depth). Row 0 is the top.
+// A rectangle of pixels; `channels` values a pixel (one a band, or one for depth). Row 0 is the
+// top.
 struct Layer {
-    std::string name;              // "beauty", "single_scattering", …
+    std::string name;  // "beauty", "single_scattering", …
     std::size_t channels = 1;
-    std::vector<float> values;     // height × width × channels; radiance [W/m^2/sr] but for transmittance [-], depth [m]
+    std::vector<float> values;  // height × width × channels; radiance [W/m^2/sr] but for
+                                // transmittance [-], depth [m]
 };
 
 struct Image {
     std::size_t width = 0, height = 0;
-    std::vector<Layer> layers;     // layers[0] is the picture itself, "beauty"
+    std::vector<Layer> layers;  // layers[0] is the picture itself, "beauty"
 
     const Layer* find(const std::string& name) const;
 };
