@@ -26,7 +26,9 @@ struct Part {
 
 using Cell = std::vector<Part>;
 
-double cross(glm::dvec2 a, glm::dvec2 b) { return a.x * b.y - a.y * b.x; }
+double cross(glm::dvec2 a, glm::dvec2 b) {
+    return a.x * b.y - a.y * b.x;
+}
 
 // A directed line; the surface beside the outline edge it comes from is on its left.
 struct Line {
@@ -136,8 +138,8 @@ std::vector<Point> hull(const Cell& cell, double tolerance) {
         while (chain.size() >= base + 2) {
             const Corner &a = chain[chain.size() - 2], &b = chain.back();
             if (!straight(a, b, c, tolerance)) break;
-            const bool on_line = std::abs(cross(b.uv - a.uv, c.uv - a.uv)) <=
-                                 tolerance * glm::length(b.uv - a.uv);
+            const bool on_line =
+                std::abs(cross(b.uv - a.uv, c.uv - a.uv)) <= tolerance * glm::length(b.uv - a.uv);
             if (on_line && glm::dot(c.uv - b.uv, b.uv - a.uv) < 0.0) return;
             chain.pop_back();
         }

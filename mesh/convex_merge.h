@@ -7,7 +7,8 @@
 // Valid for: triangles that meet in whole edges. Where the cuts would make more polygons than there
 //   were triangles, the triangles are kept.
 // Cost: O(outline edges × triangles) a cell.
-// Source: binary space partitions of planar regions: de Berg et al., Computational Geometry, ch. 12.
+// Source: binary space partitions of planar regions: de Berg et al., Computational Geometry,
+// ch. 12.
 #pragma once
 
 #include <array>

@@ -120,7 +120,8 @@ struct Occluders::View {
     View(Point eye, const Target& target, std::vector<HalfSpace>& edge_planes_out)
         : eye(eye), target(target) {
         edge_planes_out.clear();
-        edge_planes(target.corners, -1.0, [&](const HalfSpace& h) { edge_planes_out.push_back(h); });
+        edge_planes(target.corners, -1.0,
+                    [&](const HalfSpace& h) { edge_planes_out.push_back(h); });
         edges = edge_planes_out;
         const auto corners = target.corners;
         Direction turn{0};
@@ -193,7 +194,9 @@ void Occluders::build(std::span<std::uint32_t> polygons) {
         low = glm::min(low, centres.back().first), high = glm::max(high, centres.back().first);
     }
     const Point extent = high - low;
-    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0 : extent.y >= extent.z ? 1 : 2;
+    const int axis = extent.x >= extent.y && extent.x >= extent.z ? 0
+                     : extent.y >= extent.z                       ? 1
+                                                                  : 2;
     std::sort(centres.begin(), centres.end(), [axis](const auto& a, const auto& b) {
         return a.first[axis] != b.first[axis] ? a.first[axis] < b.first[axis] : a.second < b.second;
     });

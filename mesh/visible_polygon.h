@@ -1,6 +1,7 @@
 // What part of a polygon can be seen from a point, past opaque polygons, exactly.
 //
-// Method: everything is taken relative to the point. What an occluder hides of a convex polygon lies in
+// Method: everything is taken relative to the point. What an occluder hides of a convex polygon
+// lies in
 //   the cone from the point over the occluder and beyond the occluder's plane: an intersection of
 //   half spaces. The polygon is cut along those planes; parts outside are kept, the part in all of
 //   them is dropped. Occluders that cannot matter are culled by bounding spheres against the cone
@@ -8,7 +9,8 @@
 // Seams: a part within 1e-12 of its distance from a plane counts as inside the cone, so no light
 //   leaks between occluders that share an edge.
 // Cost: O(occluders that overlap the polygon), each a few dozen flops a visible part.
-// Source: Nishita & Nakamae (1985), shadow boundaries of polygons; cone clipping as in Baum et al. (1989).
+// Source: Nishita & Nakamae (1985), shadow boundaries of polygons; cone clipping as in Baum et al.
+// (1989).
 #pragma once
 
 #include <cstdint>
@@ -20,8 +22,8 @@
 
 namespace tyndall::mesh {
 
-// Convex polygons in one flat list: polygon k has corners [ends[k − 1], ends[k]). Relative to a point
-// of view; of a polygon at infinity, directions of any length.
+// Convex polygons in one flat list: polygon k has corners [ends[k − 1], ends[k]). Relative to a
+// point of view; of a polygon at infinity, directions of any length.
 struct ConvexParts {
     std::vector<Point> corners;
     std::vector<std::uint32_t> ends;
@@ -48,8 +50,8 @@ enum class Reach { finite, infinite };  // a polygon at its corners' distance, o
 struct Target {
     std::span<const Point> corners;  // convex, counter-clockwise seen from the point
     Reach reach = Reach::finite;
-    Direction horizon{0};            // occluders wholly behind this plane through the point matter
-                                     // not; 0: none
+    Direction horizon{0};  // occluders wholly behind this plane through the point matter
+                           // not; 0: none
 };
 
 // normal·p > offset.
@@ -85,7 +87,8 @@ enum class Visibility {
 class Occluders {
   public:
     Occluders() = default;
-    // `tolerance` [m]: a point nearer than this to a polygon's plane is on it and is not blocked by it.
+    // `tolerance` [m]: a point nearer than this to a polygon's plane is on it and is not blocked by
+    // it.
     Occluders(std::span<const ConvexPolygon> polygons, double tolerance);
 
     std::size_t size() const { return planes_.size(); }

@@ -16,8 +16,8 @@ double solid_angle(std::span<const mesh::Point> corners) {
         const double lc = glm::length(c);
         // Differences keep the digits of a small polygon far away.
         const double volume = glm::dot(a, glm::cross(b - a, c - a));
-        sum += std::atan2(volume, la * lb * lc + la * glm::dot(b, c) + lb * glm::dot(c, a) +
-                                      lc * glm::dot(a, b));
+        sum += std::atan2(
+            volume, la * lb * lc + la * glm::dot(b, c) + lb * glm::dot(c, a) + lc * glm::dot(a, b));
         b = c;
         lb = lc;
     }
