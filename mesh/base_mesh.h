@@ -12,16 +12,18 @@ namespace tyndall::mesh {
 // A triangle on which a surface, an opening or the hull lies; it separates two tets.
 struct BaseFacet {
     std::array<VertexId, 3> corners;  // counter-clockwise seen from its front
-    FacetId source;                   // facet of the conforming complex it lies on; none on the hull
+    FacetId source;  // facet of the conforming complex it lies on; none on the hull
     Opacity opacity = Opacity::opaque;
     std::array<TetId, 2> tets;  // on its front and on its back side; none beyond the hull
 };
 
 struct BaseMesh {
-    std::vector<Point> points;                       // [m]
-    std::vector<std::array<VertexId, 4>> tets;       // positively oriented: (b−a)×(c−a)·(d−a) > 0
-    std::vector<std::array<TetId, 4>> neighbours;    // across the face opposite corner k; none at the hull
-    std::vector<std::array<FacetId, 4>> tet_facets;  // facet on the face opposite corner k; none if free
+    std::vector<Point> points;                  // [m]
+    std::vector<std::array<VertexId, 4>> tets;  // positively oriented: (b−a)×(c−a)·(d−a) > 0
+    std::vector<std::array<TetId, 4>>
+        neighbours;  // across the face opposite corner k; none at the hull
+    std::vector<std::array<FacetId, 4>>
+        tet_facets;  // facet on the face opposite corner k; none if free
     std::vector<BaseFacet> facets;
     std::vector<RegionId> regions;  // of each tet: tets connected without crossing any facet
     std::size_t region_count = 0;
@@ -31,8 +33,8 @@ struct BaseMesh {
 // Fills neighbours' regions: flood fill from tet to tet where no facet lies between.
 void find_regions(BaseMesh& mesh);
 
-// The tet that holds x, by walking from `start` and, should that fail, by search; none outside the hull.
-// Cost: O(tets^(1/3)), worst O(tets).
+// The tet that holds x, by walking from `start` and, should that fail, by search; none outside the
+// hull. Cost: O(tets^(1/3)), worst O(tets).
 TetId locate(const BaseMesh& mesh, Point x, TetId start = TetId(0));
 
 // Volume of a tet [m^3].

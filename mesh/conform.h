@@ -17,10 +17,10 @@ struct SideOwner {
 
 // A triangle of the conforming complex.
 struct ConformingFacet {
-    std::array<VertexId, 3> corners;  // counter-clockwise seen from its front
-    std::vector<PolygonId> polygons;  // every input polygon it lies on, ascending
+    std::array<VertexId, 3> corners;    // counter-clockwise seen from its front
+    std::vector<PolygonId> polygons;    // every input polygon it lies on, ascending
     Opacity opacity = Opacity::opaque;  // opaque if any of its polygons is
-    SideOwner front, back;            // owners of the two sides (opaque facets)
+    SideOwner front, back;              // owners of the two sides (opaque facets)
 };
 
 struct ConformingComplex {
@@ -29,15 +29,18 @@ struct ConformingComplex {
 };
 
 struct ConformOptions {
-    double tolerance = 1e-7;  // points nearer than tolerance × scene diagonal are one point, planes within it one plane [-]
+    double tolerance = 1e-7;  // points nearer than tolerance × scene diagonal are one point, planes
+                              // within it one plane [-]
 };
 
 // Purpose: cut the polygons along all their mutual intersections and triangulate them, so that
 //   TetGen accepts the result: emitters lying in a ceiling's plane, boxes on floors, crossing
 //   shelves, T-junctions, duplicates, near-coplanar planes.
 // Output: every facet with the polygons it lies on. Sides: an opaque polygon owns both sides of its
-//   facets; where polygons coincide, a later one takes the side its front looks to; interfaces own none.
-// Errors: InputError naming the polygon (fewer than three corners, not finite, not planar, zero area,
+//   facets; where polygons coincide, a later one takes the side its front looks to; interfaces own
+//   none.
+// Errors: InputError naming the polygon (fewer than three corners, not finite, not planar, zero
+// area,
 //   self-intersecting).
 ConformingComplex conform(std::span<const Polygon> polygons, const ConformOptions& options = {});
 

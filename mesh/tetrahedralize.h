@@ -10,13 +10,15 @@
 namespace tyndall::mesh {
 
 struct TetrahedralizeOptions {
-    double hull_margin = 0.05;            // the hull is the bounding box grown by this × its diagonal [-]
-    double max_seconds = 120.0;           // for TetGen's process [s]
-    std::size_t max_bytes = 4ull << 30;   // address space of TetGen's process [byte]
-    std::filesystem::path worker;         // program that runs TetGen; empty: found beside this program, or installed
+    double hull_margin = 0.05;   // the hull is the bounding box grown by this × its diagonal [-]
+    double max_seconds = 120.0;  // for TetGen's process [s]
+    std::size_t max_bytes = 4ull << 30;  // address space of TetGen's process [byte]
+    std::filesystem::path
+        worker;  // program that runs TetGen; empty: found beside this program, or installed
 };
 
-// Purpose: fill the hull (bounding box + margin) with tetrahedra whose faces hold every facet of the
+// Purpose: fill the hull (bounding box + margin) with tetrahedra whose faces hold every facet of
+// the
 //   complex. TetGen is tried with mild quality first (facets may be split), then without.
 // Checked: tets > 0, total volume, area of every source facet, orientation.
 // `polygons` are those the complex was made from; they give names to the errors.

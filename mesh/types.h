@@ -29,7 +29,8 @@ using PolygonId = Id<struct PolygonTag>;  // an input polygon
 using FacetId = Id<struct FacetTag>;      // a triangle of the conforming complex or the base mesh
 using TetId = Id<struct TetTag>;          // a base tetrahedron
 using RegionId = Id<struct RegionTag>;    // tets connected without crossing a facet
-using NodeId = Id<struct NodeTag>;        // a node of the bisection forest
+using ZoneId = Id<struct ZoneTag>;        // a node of the tets' bisection trees: a tetrahedron
+using PatchId = Id<struct PatchTag>;      // a node of the facet sides' bisection trees: a triangle
 
 // A facet has two sides; its front is the side that its normal (right-hand rule) looks to.
 enum class Side : std::uint8_t { front, back };

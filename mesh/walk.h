@@ -1,9 +1,10 @@
 // The one primitive: a ray through the base tetrahedra, tet by tet, to the facet it ends on.
 //
-// Method: vertices are projected along the ray; the ray leaves a tet by the face whose projection holds
-//   the ray's point. The three edge tests are 2-D cross products of shared vertices, antisymmetric to
-//   the last bit and with ties broken by vertex index, so two tets never disagree about a shared edge:
-//   a ray through an edge or a vertex, or along a face, still has one next tet. Distances are
+// Method: vertices are projected along the ray; the ray leaves a tet by the face whose projection
+// holds
+//   the ray's point. The three edge tests are 2-D cross products of shared vertices, antisymmetric
+//   to the last bit and with ties broken by vertex index, so two tets never disagree about a shared
+//   edge: a ray through an edge or a vertex, or along a face, still has one next tet. Distances are
 //   interpolated between the face's vertices, hence bounded even where the face is seen edge-on.
 // Cost: one projection, three cross products and a division a tet.
 // Source: Platis & Theoharis (2003), Garrity (1990); tie rule after Edelsbrunner & Mücke (1990).
@@ -18,8 +19,8 @@
 namespace tyndall::mesh {
 
 struct Ray {
-    Point origin;                                            // [m]
-    Direction direction;                                     // unit
+    Point origin;                                             // [m]
+    Direction direction;                                      // unit
     double length = std::numeric_limits<double>::infinity();  // where the walk ends [m]
 };
 
@@ -33,10 +34,10 @@ enum class Arrival {
 
 struct WalkEnd {
     Arrival arrival = Arrival::lost;
-    FacetId facet;              // struck; none on the hull if no facet lies there
-    Side side = Side::front;    // of the facet, that the ray came from
-    TetId tet;                  // the last tet
-    double distance = 0.0;      // along the ray [m]
+    FacetId facet;            // struck; none on the hull if no facet lies there
+    Side side = Side::front;  // of the facet, that the ray came from
+    TetId tet;                // the last tet
+    double distance = 0.0;    // along the ray [m]
 };
 
 namespace walk_detail {
@@ -64,24 +65,46 @@ struct Frame {
 };
 
 // Twice the signed area of (ray point, a, b) in projection. cross(a, b) == −cross(b, a) exactly.
-inline double cross(const Projected& a, const Projected& b) { return a.u * b.v - a.v * b.u; }
+inline double cross(const Projected& a, const Projected& b) {
+    return a.u * b.v - a.v * b.u;
+}
 
-// Whether cross(a, b) counts as positive; a tie goes by index, so positive(a,b) != positive(b,a) always.
+// Whether cross(a, b) counts as positive; a tie goes by index, so positive(a,b) != positive(b,a)
+// always.
 inline bool positive(double cross_ab, const Projected& a, const Projected& b) {
     return cross_ab > 0.0 || (cross_ab == 0.0 && a.id < b.id);
 }
 
 }  // namespace walk_detail
 
-// The three corners of the face opposite corner k, counter-clockwise seen from inside the tet.
-inline constexpr std::array<std::array<int, 3>, 4> face_corners{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+// The three corners of the face opposite corner k, counter-clockwise seen from outside the tet.
+inline constexpr std::array<std::array<int, 3>, 4> face_corners{
+    {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
-// Walks from `start` (the tet that holds the origin; `entry`, if given, is the index of the face of
-// `start` on which the origin lies and through which the ray comes in).
-// on_tet(TetId, double t_in, double t_out) → bool: false stops the walk. Interfaces are passed.
+// Where a ray starts: in a tet, or on one of its faces (the face opposite corner `face`).
+struct WalkStart {
+    TetId tet;
+    int face = inside;
+    static constexpr int inside = 4;
+};
+
+// The start of rays that leave a facet on the given side.
+inline WalkStart start_on(const BaseMesh& mesh, FacetId facet, Side side) {
+    const TetId tet = mesh.facets[facet.value].tets[side == Side::front ? 0 : 1];
+    const auto& faces = mesh.tet_facets[tet.value];
+    const auto face = std::find(faces.begin(), faces.end(), facet) - faces.begin();
+    return {tet, static_cast<int>(face)};
+}
+
+// Which facets end a walk.
+enum class Passes { interfaces, everything };
+
+// Walks from `start` to an opaque facet, the hull, or the ray's length.
+// on_tet(TetId, double t_in, double t_out) → bool: false stops the walk. Interfaces are passed
+// (everything is passed, but for the hull, if so asked).
 // t_in of the first tet is 0; t_out of each is t_in of the next; zero lengths are not reported.
-template <class OnTet>
-WalkEnd walk(const BaseMesh& mesh, const Ray& ray, TetId start, OnTet&& on_tet, int entry = -1);
+template <Passes passes = Passes::interfaces, class OnTet>
+WalkEnd walk(const BaseMesh& mesh, const Ray& ray, WalkStart start, OnTet&& on_tet);
 
 }  // namespace tyndall::mesh
 

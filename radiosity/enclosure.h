@@ -18,14 +18,15 @@ using mesh::RegionId;
 using mesh::Side;
 using mesh::TetId;
 
-// One side of a surface: what exchange and net power speak of. "room.floor+" is the front of room.floor.
+// One side of a surface: what exchange and net power speak of. "room.floor+" is the front of
+// room.floor.
 struct SurfaceSide {
     std::string name;         // with + or − (the hull: "outside")
     std::size_t surface = 0;  // index into Scene::surfaces
     Side side = Side::front;
-    Spectrum reflectance;     // rho [-]
-    Spectrum emission;        // I_e [W/m^2/sr]
-    double area = 0.0;        // that faces a region light can be in [m^2]
+    Spectrum reflectance;  // rho [-]
+    Spectrum emission;     // I_e [W/m^2/sr]
+    double area = 0.0;     // that faces a region light can be in [m^2]
 };
 
 // A medium as it is solved: isotropic, with the reduced coefficients of an anisotropic one.
@@ -33,27 +34,33 @@ struct MediumOptics {
     std::string name;
     Spectrum extinction;  // kappa_t [1/m]
     Spectrum albedo;      // a of the one equation: Omega, or 1 where heat is given [-]
-    Spectrum emission;    // e of the one equation: (1−Omega) J_e, or Q/(4 kappa_t), times 1/pi [W/m^2/sr]
+    Spectrum
+        emission;  // e of the one equation: (1−Omega) J_e, or Q/(4 kappa_t), times 1/pi [W/m^2/sr]
     Spectrum absorption;  // kappa_a [1/m]
 };
 
 inline constexpr std::uint32_t none = 0xffffffffu;
 
-// Invariants: a solid region has no medium; no facet side that faces a solid region has a SurfaceSide.
+// Invariants: a solid region has no medium; no facet side that faces a solid region has a
+// SurfaceSide.
 struct Enclosure {
     std::size_t bands = 1;
     mesh::BaseMesh mesh;
     std::vector<SurfaceSide> sides;
-    std::vector<std::array<std::uint32_t, 2>> facet_sides;  // of each facet: index into sides of front, back; none
+    std::vector<std::array<std::uint32_t, 2>>
+        facet_sides;  // of each facet: index into sides of front, back; none
     std::vector<MediumOptics> media;
-    std::vector<std::uint32_t> region_medium;  // of each region: index into media; none: empty space
-    std::vector<bool> region_solid;            // of each region
+    std::vector<std::uint32_t>
+        region_medium;               // of each region: index into media; none: empty space
+    std::vector<bool> region_solid;  // of each region
     std::vector<Light> lights;
-    Spectrum environment;                      // radiance from outside [W/m^2/sr]
-    bool open = false;                         // some active region reaches the hull
+    Spectrum environment;  // radiance from outside [W/m^2/sr]
+    bool open = false;     // some active region reaches the hull
     std::vector<std::string> warnings;
 
-    std::uint32_t medium_of(TetId tet) const { return region_medium[mesh.regions[tet.value].value]; }
+    std::uint32_t medium_of(TetId tet) const {
+        return region_medium[mesh.regions[tet.value].value];
+    }
     bool solid(TetId tet) const { return region_solid[mesh.regions[tet.value].value]; }
     // kappa_t of a base tet, 0 in empty space [1/m].
     double extinction(TetId tet, std::size_t band) const {

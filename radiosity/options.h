@@ -13,7 +13,8 @@ namespace tyndall::radiosity {
 // Where light of emitting surfaces is counted.
 enum class DirectLightMode {
     closed_form,  // split off and integrated over the visible part of each emitter
-    rows,         // with all other light, through the exchange areas (sun, point and spot lights stay closed form)
+    rows,  // with all other light, through the exchange areas (sun, point and spot lights stay
+           // closed form)
 };
 
 enum class Refinement {
@@ -23,27 +24,28 @@ enum class Refinement {
 };
 
 struct SolveOptions {
-    double error = 0.01;                 // goal: estimated relative error of the picture, or of the solution [-]
-    std::string exchange = "walked";     // method for exchange areas
-    std::string solver = "gmres";        // method for the linear system
+    double error = 0.01;  // goal: estimated relative error of the picture, or of the solution [-]
+    std::string exchange = "walked";  // method for exchange areas
+    std::string solver = "gmres";     // method for the linear system
     Refinement refinement = Refinement::adaptive;
     DirectLightMode direct_light = DirectLightMode::closed_form;
-    double element_size = 0.0;           // longest edge of the initial elements [m]; 0: chosen from the scene
-    std::size_t max_elements = 300000;   // leaves, patches and zones together
-    std::size_t max_memory = 2ull << 30; // [byte]
-    double max_time = 0.0;               // wall time; 0: no limit [s]
-    std::size_t max_passes = 12;         // of refinement
-    std::size_t rays = 256;              // walked from each element for its row
-    std::size_t gather_rays = 512;       // walked from each point of the last, fine gather
-    double solver_tolerance = 1e-6;      // relative residual [-]
+    double element_size =
+        0.0;  // longest edge of the initial elements [m]; 0: chosen from the scene
+    std::size_t max_elements = 300000;    // leaves, patches and zones together
+    std::size_t max_memory = 2ull << 30;  // [byte]
+    double max_time = 0.0;                // wall time; 0: no limit [s]
+    std::size_t max_passes = 12;          // of refinement
+    std::size_t rays = 256;               // walked from each element for its row
+    std::size_t gather_rays = 512;        // walked from each point of the last, fine gather
+    double solver_tolerance = 1e-6;       // relative residual [-]
     std::size_t solver_iterations = 200;
     std::uint64_t seed = 1;
-    std::size_t threads = 0;             // 0: all
+    std::size_t threads = 0;  // 0: all
 };
 
 // The part of space a picture shows, for refinement where the picture needs it.
 struct View {
-    mesh::Point eye{0};             // [m]
+    mesh::Point eye{0};                           // [m]
     mesh::Direction forward{0}, right{0}, up{0};  // orthonormal
     double tan_half_x = 1.0, tan_half_y = 1.0;
 };

@@ -10,14 +10,14 @@ namespace tyndall::render {
 
 struct RenderOptions {
     std::string method = "line_of_sight";
-    std::size_t samples = 16;        // rays a pixel, on a stratified grid
+    std::size_t samples = 16;  // rays a pixel, on a stratified grid
     std::uint64_t seed = 1;
-    std::size_t threads = 0;         // 0: all
+    std::size_t threads = 0;  // 0: all
 };
 
 struct ToneMapOptions {
-    double exposure = 0.0;           // stops added to the automatic exposure
-    std::optional<double> white;     // radiance shown as white, instead of automatic [W/m^2/sr]
+    double exposure = 0.0;        // stops added to the automatic exposure
+    std::optional<double> white;  // radiance shown as white, instead of automatic [W/m^2/sr]
 };
 
 }  // namespace tyndall::render

@@ -1,0 +1,340 @@
+#include "radiosity/enclosure.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <numeric>
+
+#include "mesh/input_error.h"
+
+namespace tyndall::radiosity {
+namespace {
+
+using mesh::BaseMesh;
+using mesh::InputError;
+using mesh::Opacity;
+
+// A name and where it was defined, as messages give it.
+std::string named(const std::string& what, const std::string& name, const std::string& where) {
+    return where.empty() ? fmt::format("{} \"{}\"", what, name)
+                         : fmt::format("{}: {} \"{}\"", where, what, name);
+}
+
+struct Polygons {
+    std::vector<mesh::Polygon> list;
+    std::vector<std::size_t> surface;  // of each polygon
+};
+
+Polygons collect_polygons(const Scene& scene) {
+    Polygons polygons;
+    for (std::size_t s = 0; s < scene.surfaces.size(); ++s) {
+        const Surface& surface = scene.surfaces[s];
+        for (mesh::Polygon polygon : surface.polygons) {
+            polygon.opacity = surface.material ? Opacity::opaque : Opacity::interface;
+            polygon.name =
+                surface.where.empty() ? surface.name : surface.name + " (" + surface.where + ")";
+            polygons.list.push_back(std::move(polygon));
+            polygons.surface.push_back(s);
+        }
+    }
+    return polygons;
+}
+
+Point position(const Light& light) {
+    if (const auto* point = std::get_if<PointLight>(&light.source)) return point->position;
+    if (const auto* spot = std::get_if<SpotLight>(&light.source)) return spot->position;
+    return Point(0);
+}
+
+// The region that holds x; none outside the hull.
+RegionId region_at(const BaseMesh& mesh, Point x) {
+    const TetId tet = mesh::locate(mesh, x);
+    return tet.valid() ? mesh.regions[tet.value] : RegionId();
+}
+
+// The opaque facet that x lies on within `tolerance` [m], if any.
+FacetId wall_at(const BaseMesh& mesh, Point x, double tolerance) {
+    const TetId tet = mesh::locate(mesh, x);
+    if (!tet.valid()) return {};
+    for (const FacetId facet : mesh.tet_facets[tet.value]) {
+        if (!facet.valid()) continue;
+        const Point corner = mesh.points[mesh.facets[facet.value].corners[0].value];
+        if (std::abs(glm::dot(mesh::normal(mesh, facet), x - corner)) < tolerance) return facet;
+    }
+    return {};
+}
+
+// Binds the scene's optics to the mesh, step by step.
+class Binder {
+  public:
+    Binder(const Scene& scene, const Polygons& polygons, const mesh::ConformingComplex& complex,
+           Enclosure& enclosure)
+        : scene_(scene),
+          polygons_(polygons),
+          complex_(complex),
+          e_(enclosure),
+          mesh_(enclosure.mesh) {}
+
+    void bind() {
+        find_solids();
+        fill_media();
+        bind_sides();
+        resolve_power();
+        refuse_unbounded();
+    }
+
+  private:
+    const mesh::SideOwner& owner(FacetId facet, Side side) const {
+        const auto& source = complex_.facets[mesh_.facets[facet.value].source.value];
+        return side == Side::front ? source.front : source.back;
+    }
+
+    void keep(RegionId region) {
+        if (region.valid()) e_.region_solid[region.value] = false;
+    }
+
+    void find_solids() {
+        std::vector<bool> has_back(mesh_.region_count), has_other(mesh_.region_count);
+        for (std::size_t f = 0; f < mesh_.facets.size(); ++f) {
+            const auto& facet = mesh_.facets[f];
+            for (const Side side : {Side::front, Side::back}) {
+                const TetId tet = facet.tets[side == Side::back];
+                if (!tet.valid()) continue;
+                const auto region = mesh_.regions[tet.value].value;
+                const bool back =
+                    facet.opacity == Opacity::opaque && owner(FacetId(f), side).side == Side::back;
+                (back ? has_back : has_other)[region] = true;
+            }
+        }
+        e_.region_solid.resize(mesh_.region_count);
+        for (std::size_t r = 0; r < mesh_.region_count; ++r)
+            e_.region_solid[r] = has_back[r] && !has_other[r];
+        for (const Point eye : scene_.viewpoints) keep(region_at(mesh_, eye));
+        for (const Light& light : scene_.lights)
+            if (!std::holds_alternative<Sun>(light.source)) keep(region_at(mesh_, position(light)));
+        for (const Medium& medium : scene_.media)
+            if (medium.at) keep(region_at(mesh_, *medium.at));
+        for (std::size_t t = 0; t < mesh_.tets.size(); ++t)
+            for (const TetId next : mesh_.neighbours[t])
+                if (!next.valid() && !e_.solid(TetId(t))) e_.open = true;
+    }
+
+    MediumOptics optics(const Medium& medium) const {
+        MediumOptics result{medium.name, {}, {}, {}, {}};
+        for (std::size_t b = 0; b < e_.bands; ++b) {
+            const double scattering =
+                medium.extinction[b] * medium.albedo[b] * (1.0 - medium.asymmetry);
+            const double absorption = medium.extinction[b] * (1.0 - medium.albedo[b]);
+            const double extinction = absorption + scattering;
+            const double albedo = extinction > 0.0 ? scattering / extinction : 0.0;
+            const bool heated = !medium.heat.empty();
+            result.extinction.push_back(extinction);
+            result.absorption.push_back(heated ? extinction : absorption);
+            result.albedo.push_back(heated ? 1.0 : albedo);
+            double emission = medium.emission.empty() ? 0.0 : (1.0 - albedo) * medium.emission[b];
+            if (heated && extinction > 0.0)
+                emission = medium.heat[b] / (4.0 * std::numbers::pi * extinction);
+            result.emission.push_back(emission);
+        }
+        return result;
+    }
+
+    void fill_media() {
+        e_.region_medium.assign(mesh_.region_count, none);
+        std::vector<std::size_t> claimed(mesh_.region_count, scene_.media.size());
+        const double tolerance = 1e-9 * glm::distance(mesh_.hull_min, mesh_.hull_max);
+        for (std::size_t m = 0; m < scene_.media.size(); ++m) {
+            const Medium& medium = scene_.media[m];
+            e_.media.push_back(optics(medium));
+            if (!medium.at) continue;
+            const Point x = *medium.at;
+            const RegionId region = region_at(mesh_, x);
+            if (!region.valid())
+                throw InputError(fmt::format(
+                    "{} is to fill the region around at = [{}, {}, {}], which lies outside the "
+                    "scene's hull. Give a point inside the region.",
+                    named("medium", medium.name, medium.where), x.x, x.y, x.z));
+            if (const FacetId wall = wall_at(mesh_, x, tolerance); wall.valid())
+                throw InputError(fmt::format(
+                    "{} is to fill the region around at = [{}, {}, {}], which lies on a surface{}. "
+                    "Move the point into the region.",
+                    named("medium", medium.name, medium.where), x.x, x.y, x.z, on_surface(wall)));
+            if (auto& claim = claimed[region.value]; claim != scene_.media.size())
+                throw InputError(fmt::format(
+                    "{} and medium \"{}\" claim one region by their points `at`. Remove one, or "
+                    "put "
+                    "a surface without material (an interface) between them.",
+                    named("medium", medium.name, medium.where), scene_.media[claim].name));
+            else
+                claim = m;
+        }
+        for (std::size_t m = 0; m < scene_.media.size(); ++m)
+            for (std::size_t r = 0; r < mesh_.region_count; ++r)
+                if (claimed[r] == scene_.media.size() && !scene_.media[m].at && !e_.region_solid[r])
+                    claimed[r] = m;
+        for (std::size_t r = 0; r < mesh_.region_count; ++r) {
+            if (claimed[r] == scene_.media.size()) continue;
+            const auto& extinction = e_.media[claimed[r]].extinction;
+            const bool empty = std::all_of(extinction.begin(), extinction.end(),
+                                           [](double kappa) { return kappa == 0.0; });
+            if (!empty) e_.region_medium[r] = static_cast<std::uint32_t>(claimed[r]);
+        }
+    }
+
+    std::string on_surface(FacetId wall) const {
+        const auto& polygons = complex_.facets[mesh_.facets[wall.value].source.value].polygons;
+        if (polygons.empty()) return {};
+        return fmt::format(" (\"{}\")", scene_.surfaces[polygons_.surface[polygons[0].value]].name);
+    }
+
+    // The side's optics; `index` of (surface, side) is made when it first faces light.
+    std::uint32_t side_index(std::size_t surface, Side side) {
+        auto& index = indices_[2 * surface + (side == Side::back)];
+        if (index != none) return index;
+        index = static_cast<std::uint32_t>(e_.sides.size());
+        const Surface& s = scene_.surfaces[surface];
+        const Material* material = &scene_.materials[*s.material];
+        bool emits = side == Side::front || material->emits == EmittingSides::both;
+        if (side == Side::back && material->back) {
+            material = &scene_.materials[*material->back];
+            emits = true;
+        }
+        SurfaceSide result;
+        result.name = s.name + (side == Side::front ? "+" : "-");
+        result.surface = surface;
+        result.side = side;
+        result.reflectance = material->reflectance;
+        result.emission =
+            emits && !material->emission.empty() ? material->emission : Spectrum(e_.bands, 0.0);
+        materials_.push_back(emits ? material : nullptr);
+        e_.sides.push_back(std::move(result));
+        return index;
+    }
+
+    void bind_sides() {
+        indices_.assign(2 * scene_.surfaces.size(), none);
+        e_.facet_sides.assign(mesh_.facets.size(), {none, none});
+        for (std::size_t f = 0; f < mesh_.facets.size(); ++f) {
+            if (mesh_.facets[f].opacity != Opacity::opaque) continue;
+            for (const Side side : {Side::front, Side::back}) {
+                const TetId tet = mesh_.facets[f].tets[side == Side::back];
+                if (!tet.valid() || e_.solid(tet)) continue;
+                const auto& own = owner(FacetId(f), side);
+                const auto index = side_index(polygons_.surface[own.polygon.value], own.side);
+                e_.facet_sides[f][side == Side::back] = index;
+                e_.sides[index].area += mesh::area(mesh_, FacetId(f));
+            }
+        }
+    }
+
+    void resolve_power() {
+        for (std::size_t s = 0; s < scene_.surfaces.size(); ++s) {
+            if (!scene_.surfaces[s].material) continue;
+            const Material& material = scene_.materials[*scene_.surfaces[s].material];
+            if (material.power.empty()) continue;
+            std::vector<std::uint32_t> emitting;
+            double area = 0.0;
+            for (const int k : {0, 1}) {
+                const auto index = indices_[2 * s + k];
+                if (index == none || materials_[index] != &material) continue;
+                emitting.push_back(index);
+                area += e_.sides[index].area;
+            }
+            if (!(area > 0.0))
+                throw InputError(fmt::format(
+                    "{} is to emit a power, but no part of its emitting side faces a region that "
+                    "light can be in. Turn it (front = right-hand rule of the corners), or set "
+                    "emits = \"both\".",
+                    named("surface", scene_.surfaces[s].name, scene_.surfaces[s].where)));
+            for (const auto index : emitting)
+                for (std::size_t b = 0; b < e_.bands; ++b)
+                    e_.sides[index].emission[b] = material.power[b] / (std::numbers::pi * area);
+        }
+    }
+
+    // A closed region with a source, no absorption and no opening has no steady state.
+    void refuse_unbounded();
+
+    const Scene& scene_;
+    const Polygons& polygons_;
+    const mesh::ConformingComplex& complex_;
+    Enclosure& e_;
+    const BaseMesh& mesh_;
+    std::vector<std::uint32_t> indices_;      // 2 × surface + back → side
+    std::vector<const Material*> materials_;  // of each side, null where it does not emit
+};
+
+void Binder::refuse_unbounded() {
+    // Regions that light can pass between, joined through their interfaces.
+    std::vector<std::uint32_t> group(mesh_.region_count);
+    std::iota(group.begin(), group.end(), 0u);
+    const auto find = [&](std::uint32_t r) {
+        while (group[r] != r) r = group[r] = group[group[r]];
+        return r;
+    };
+    for (const auto& facet : mesh_.facets)
+        if (facet.opacity == Opacity::interface && facet.tets[0].valid() && facet.tets[1].valid())
+            group[find(mesh_.regions[facet.tets[0].value].value)] =
+                find(mesh_.regions[facet.tets[1].value].value);
+
+    for (std::size_t band = 0; band < e_.bands; ++band) {
+        std::vector<bool> loses(mesh_.region_count), gains(mesh_.region_count);
+        for (std::size_t f = 0; f < mesh_.facets.size(); ++f)
+            for (const int k : {0, 1}) {
+                const auto side = e_.facet_sides[f][k];
+                if (side == none) continue;
+                const auto r = find(mesh_.regions[mesh_.facets[f].tets[k].value].value);
+                if (e_.sides[side].reflectance[band] < 1.0) loses[r] = true;
+                if (e_.sides[side].emission[band] > 0.0) gains[r] = true;
+            }
+        for (std::size_t t = 0; t < mesh_.tets.size(); ++t) {
+            if (e_.solid(TetId(t))) continue;
+            const auto r = find(mesh_.regions[t].value);
+            for (const TetId next : mesh_.neighbours[t])
+                if (!next.valid()) loses[r] = true;
+            const auto medium = e_.medium_of(TetId(t));
+            if (medium == none) continue;
+            if (e_.media[medium].albedo[band] < 1.0) loses[r] = true;
+            if (e_.media[medium].emission[band] > 0.0) gains[r] = true;
+        }
+        for (const Light& light : scene_.lights)
+            if (!std::holds_alternative<Sun>(light.source))
+                if (const RegionId r = region_at(mesh_, position(light)); r.valid())
+                    gains[find(r.value)] = true;
+        for (std::size_t r = 0; r < mesh_.region_count; ++r)
+            if (gains[r] && !loses[r] && !e_.region_solid[r])
+                throw InputError(
+                    "A closed region has a source of light but nothing that absorbs (every "
+                    "reflectance is 1, every albedo 1) and no opening: its light grows for ever. "
+                    "Lower a reflectance or an albedo, or open the region.");
+    }
+}
+
+}  // namespace
+
+Enclosure make_enclosure(const Scene& scene, const EnclosureOptions& options) {
+    const Polygons polygons = collect_polygons(scene);
+    if (polygons.list.empty())
+        throw InputError("The scene has no surfaces. Add at least one [[surface]].");
+    const auto complex = mesh::conform(polygons.list, options.conform);
+    Enclosure enclosure;
+    enclosure.bands = scene.bands;
+    enclosure.mesh = mesh::tetrahedralize(complex, polygons.list, options.tetrahedralize);
+    mesh::find_regions(enclosure.mesh);
+    enclosure.lights = scene.lights;
+    enclosure.environment =
+        scene.environment.empty() ? Spectrum(scene.bands, 0.0) : scene.environment;
+    Binder(scene, polygons, complex, enclosure).bind();
+    for (const Medium& medium : scene.media)
+        if (medium.asymmetry != 0.0)
+            enclosure.warnings.push_back(fmt::format(
+                "medium \"{}\" scatters anisotropically (g = {}): the solve and the line-of-sight "
+                "picture use the reduced scattering coefficient (1 - g) kappa_s.",
+                medium.name, medium.asymmetry));
+    return enclosure;
+}
+
+}  // namespace tyndall::radiosity

@@ -1,0 +1,23 @@
+// Exchange areas by walking rays: the default method.
+#pragma once
+
+#include "radiosity/exchange.h"
+
+namespace tyndall::radiosity {
+
+// Purpose: row i from `rays` walks that start at points and directions of element i
+// (cosine-weighted
+//   from a patch, uniform from a zone). Each deposits what it loses in every zone it crosses, and
+//   the rest in the patch it ends on, or outside:
+//     S_ij = c_i/D Σ_rays T (1 − e^{−κΔs})     j a zone crossed over Δs, T the transmittance so far
+//     S_ij = c_i/D Σ_rays T                     j the patch the ray ends on              (8)–(10)
+// Valid for: any mesh, any occlusion, homogeneous base tets. Rows close by construction, entries
+// are
+//   ≥ 0, self terms included. Reciprocity holds at the rate of the point set only.
+// Cost: rays × tets crossed a row. Error: about 1/D^0.75 with the Sobol' set for smooth rows.
+// Source: zonal method of Hottel & Sarofim (1967), Rushmeier & Torrance (1987); Sobol' points after
+// Owen (1995).
+void exchange_walked(const Discretization& discretization, std::span<const ElementId> rows,
+                     const ExchangeOptions& options, const RowSink& sink);
+
+}  // namespace tyndall::radiosity
