@@ -10,7 +10,7 @@
 #include <new>
 
 #include "cli/commands.h"
-#include "cli/nearest_name.h"
+#include "cli/suggestion.h"
 #include "mesh/input_error.h"
 
 namespace tyndall::cli {
@@ -62,7 +62,7 @@ std::string wording(const CLI::App& app, const CLI::ParseError& error) {
         return fmt::format("'{}' belongs behind the command: tyndall {} … {}", name,
                            command.get_name(), first);
     if (first.size() > 1 && first[0] == '-')
-        return fmt::format("unknown flag '{}'{}", name, did_you_mean(name, flags));
+        return fmt::format("unknown flag '{}'. {}", name, suggest(name, flags));
     return fmt::format("'{}' is one argument too many", first);
 }
 
@@ -111,7 +111,7 @@ int Shell::usage_error(const std::string& message) const {
 int Shell::help(const std::string& name) const {
     const auto names = command_names(*app_);
     if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end())
-        return usage_error(fmt::format("unknown command '{}'{}", name, did_you_mean(name, names)));
+        return usage_error(fmt::format("unknown command '{}'. {}", name, suggest(name, names)));
     write_output(name.empty() ? app_->help() : app_->get_subcommand(name)->help());
     return done;
 }
@@ -124,7 +124,7 @@ int Shell::parse_and_run(int argc, const char* const* argv) {
     if (std::strcmp(argv[1], "help") == 0) return help(argc > 2 ? argv[2] : "");
     if (const auto name = unknown_command(*app_, argc, argv); !name.empty())
         return usage_error(
-            fmt::format("unknown command '{}'{}", name, did_you_mean(name, command_names(*app_))));
+            fmt::format("unknown command '{}'. {}", name, suggest(name, command_names(*app_))));
     try {
         app_->parse(argc, argv);
     } catch (const CLI::Success& request) {  // --help, --version

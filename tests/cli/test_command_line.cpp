@@ -101,10 +101,10 @@ TEST_CASE("wrong usage exits with 2 and says what was meant") {
     CHECK_THAT(bare.err, Contains("Usage"));
     const auto mistyped = place.run("comprae a b");
     CHECK(mistyped.code == 2);
-    CHECK_THAT(mistyped.err, Contains("comprae") && Contains("did you mean 'compare'"));
+    CHECK_THAT(mistyped.err, Contains("comprae") && Contains("Did you mean \"compare\""));
     const auto flag = place.run("compare a.pfm b.pfm --laier=x");
     CHECK(flag.code == 2);
-    CHECK_THAT(flag.err, Contains("'--laier'") && Contains("did you mean '--layer'"));
+    CHECK_THAT(flag.err, Contains("'--laier'") && Contains("Did you mean \"--layer\""));
     const auto early = place.run("--quiet compare a.pfm b.pfm");
     CHECK(early.code == 2);
     CHECK_THAT(early.err, Contains("behind the command"));

@@ -13,7 +13,6 @@ using Catch::Matchers::Contains;
 #include <csignal>
 #include <cstdlib>
 
-#include "cli/nearest_name.h"
 #include "cli/progress.h"
 
 namespace {
@@ -98,16 +97,4 @@ TEST_CASE("the next line does not stop because an earlier one was") {
     CommonFlags flags;
     ProgressLine line(flags);
     CHECK(line.callback()({"rows", 0.1}));
-}
-
-TEST_CASE("the nearest name is offered, if one is near") {
-    const std::vector<std::string> names{"run", "check", "solve", "render", "probe", "reflectance"};
-    CHECK(nearest_name("slove", names) == "solve");
-    CHECK(nearest_name("rendr", names) == "render");
-    CHECK(nearest_name("rnu", names) == "run");
-    CHECK(nearest_name("reflectanse", names) == "reflectance");
-    CHECK_FALSE(nearest_name("xyzzy", names));
-    CHECK_FALSE(nearest_name("", names));
-    CHECK_FALSE(nearest_name("run", {}));
-    CHECK(did_you_mean("chekc", names) == "; did you mean 'check'?");
 }
