@@ -59,13 +59,13 @@ Hull hull_around(const ConformingComplex& complex, double margin) {
     return {hull.min - grow, hull.max + grow};
 }
 
-Input input_of(const ConformingComplex& complex, const Hull& hull) {
+Input input_of(const ConformingComplex& complex, const FacetGroups& groups, const Hull& hull) {
     Input input;
     input.points = complex.points;
     for (std::size_t f = 0; f < complex.facets.size(); ++f) {
         const auto& corners = complex.facets[f].corners;
         input.triangles.push_back({corners[0].value, corners[1].value, corners[2].value});
-        input.triangle_markers.push_back(static_cast<std::int32_t>(f + 1));
+        input.triangle_markers.push_back(static_cast<std::int32_t>(groups.group(FacetId(f)) + 1));
     }
     const auto first = static_cast<std::uint32_t>(input.points.size());
     for (std::uint32_t corner = 0; corner < 8; ++corner) {
@@ -77,20 +77,20 @@ Input input_of(const ConformingComplex& complex, const Hull& hull) {
         {{0, 2, 6, 4}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 1, 3, 2}, {4, 5, 7, 6}}};
     for (const auto& side : sides) {
         input.quads.push_back({first + side[0], first + side[1], first + side[2], first + side[3]});
-        input.quad_markers.push_back(static_cast<std::int32_t>(complex.facets.size() + 1));
+        input.quad_markers.push_back(static_cast<std::int32_t>(groups.size() + 1));
     }
     return input;
 }
 
 // Where TetGen stumbles: the facets that its own check finds crossing, or none.
 std::vector<FacetId> diagnose(const std::filesystem::path& worker, const Input& input,
-                              const ConformingComplex& complex, const Limits& limits) {
+                              const FacetGroups& groups, const Limits& limits) {
     const auto result = run(worker, "pdQ", input, {std::min(limits.seconds, 20.0), limits.bytes});
     std::set<FacetId> facets;
     if (result.outcome == Outcome::done && result.output.tets.empty()) {
         for (const auto marker : result.output.face_markers) {
-            if (marker >= 1 && static_cast<std::size_t>(marker) <= complex.facets.size()) {
-                facets.insert(FacetId(marker - 1));
+            if (marker >= 1 && static_cast<std::size_t>(marker) <= groups.size()) {
+                facets.insert(groups.members(marker - 1).front());
             }
         }
     }
@@ -134,7 +134,8 @@ class Mesher {
           options_(options),
           worker_(find_worker(options.worker)),
           hull_(hull_around(complex, options.hull_margin)),
-          input_(input_of(complex, hull_)) {}
+          groups_(complex),
+          input_(input_of(complex, groups_, hull_)) {}
 
     // Nothing, and one more failure noted, if this attempt came to no mesh.
     std::optional<BaseMesh> attempt(const Attempt& attempt) {
@@ -145,7 +146,7 @@ class Mesher {
             return {};
         }
         try {
-            return build_base_mesh(result.output, complex_, hull_);
+            return build_base_mesh(result.output, complex_, groups_, hull_);
         } catch (const Fault& fault) {
             failures_.push_back({Outcome::refused, fault.what(), fault.facet});
             return {};
@@ -168,7 +169,7 @@ class Mesher {
                 "simplify the surfaces.",
                 complex_.facets.size(), options_.max_seconds, last.message));
         }
-        auto where = diagnose(worker_, input_, complex_, {20.0, options_.max_bytes});
+        auto where = diagnose(worker_, input_, groups_, {20.0, options_.max_bytes});
         if (where.empty() && last.facet.valid()) {
             where.push_back(last.facet);
         }
@@ -190,6 +191,7 @@ class Mesher {
     const TetrahedralizeOptions& options_;
     std::filesystem::path worker_;
     Hull hull_;
+    FacetGroups groups_;
     Input input_;
     std::vector<Failure> failures_;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
