@@ -20,13 +20,19 @@ namespace {
 
 using namespace tetgen;
 
-// Mild quality first: bisection never mends slivers. It does not always come to an end on nearly
-// coplanar facets, hence its short time. Then facets left as they are.
 struct Attempt {
-    const char* switches;
+    std::string switches;
     double seconds;
 };
-constexpr Attempt attempts[] = {{"pq2.0Q", 20.0}, {"pYQ", 1e9}};
+
+// Mild quality first: bisection never mends slivers. Small features and nearly coplanar facets
+// would keep it adding points for ever, so it may add only some (-S), and not take long. Then
+// facets left as they are.
+std::array<Attempt, 2> attempts(std::size_t facets) {
+    return {
+        {{fmt::format("pq2.0S{}Q", 500 + facets / 2), 20.0 + 5e-4 * static_cast<double>(facets)},
+         {"pYQ", 1e9}}};
+}
 
 void check(const ConformingComplex& complex, const TetrahedralizeOptions& options) {
     if (complex.facets.empty()) {
@@ -203,7 +209,7 @@ BaseMesh tetrahedralize(const ConformingComplex& complex, std::span<const Polygo
                         const TetrahedralizeOptions& options) {
     check(complex, options);
     Mesher mesher(complex, options);
-    for (const auto& attempt : attempts) {
+    for (const auto& attempt : attempts(complex.facets.size())) {
         if (auto mesh = mesher.attempt(attempt)) {
             return std::move(*mesh);
         }
