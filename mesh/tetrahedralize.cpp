@@ -13,6 +13,7 @@
 #include "mesh/base_mesh_build.h"
 #include "mesh/input_error.h"
 #include "mesh/tetgen_process.h"
+#include "mesh/trouble.h"
 
 namespace tyndall::mesh {
 
@@ -88,7 +89,7 @@ Input input_of(const ConformingComplex& complex, const FacetGroups& groups, cons
     return input;
 }
 
-// Where TetGen stumbles: the facets that its own check finds crossing, or none.
+// The facets that TetGen's own check finds crossing, or none.
 std::vector<FacetId> diagnose(const std::filesystem::path& worker, const Input& input,
                               const FacetGroups& groups, const Limits& limits) {
     const auto result = run(worker, "pdQ", input, {std::min(limits.seconds, 20.0), limits.bytes});
@@ -101,30 +102,6 @@ std::vector<FacetId> diagnose(const std::filesystem::path& worker, const Input& 
         }
     }
     return {facets.begin(), facets.end()};
-}
-
-std::string describe(const std::vector<FacetId>& facets, const ConformingComplex& complex,
-                     std::span<const Polygon> polygons) {
-    std::set<std::string> names;
-    for (const auto facet : facets) {
-        for (const auto polygon : complex.facets[facet.value].polygons) {
-            const auto& name =
-                polygon.value < polygons.size() ? polygons[polygon.value].name : std::string();
-            names.insert(name.empty() ? fmt::format("polygon {}", polygon.value)
-                                      : fmt::format("\"{}\"", name));
-        }
-    }
-    std::string list;
-    std::size_t listed = 0;
-    for (const auto& name : names) {
-        if (++listed > 6) {
-            list += fmt::format(" and {} more", names.size() - 6);
-            break;
-        }
-        list += (list.empty() ? "" : ", ") + name;
-    }
-    const auto& at = complex.points[complex.facets[facets.front().value].corners[0].value];
-    return fmt::format("{} near ({:.6g}, {:.6g}, {:.6g})", list, at.x, at.y, at.z);
 }
 
 struct Failure {
@@ -145,6 +122,9 @@ class Mesher {
 
     // Nothing, and one more failure noted, if this attempt came to no mesh.
     std::optional<BaseMesh> attempt(const Attempt& attempt) {
+        if (!failures_.empty() && remaining() <= 0.0) {
+            return {};
+        }
         const double seconds = std::min(attempt.seconds, remaining());
         const auto result = run(worker_, attempt.switches, input_, {seconds, options_.max_bytes});
         if (result.outcome != Outcome::done) {
@@ -175,19 +155,44 @@ class Mesher {
                 "simplify the surfaces.",
                 complex_.facets.size(), options_.max_seconds, last.message));
         }
-        auto where = diagnose(worker_, input_, groups_, {20.0, options_.max_bytes});
-        if (where.empty() && last.facet.valid()) {
-            where.push_back(last.facet);
-        }
         throw InputError(fmt::format(
-            "TetGen cannot mesh these surfaces: {}. {}. Move surfaces that nearly touch apart, or "
+            "TetGen cannot mesh these surfaces: {}. {} Move surfaces that nearly touch apart, or "
             "let them coincide.",
-            last.message,
-            where.empty() ? "No single place was found"
-                          : "Look at " + describe(where, complex_, polygons)));
+            last.message, place(polygons, last.facet)));
     }
 
   private:
+    // The best guess at where: an exact crossing, TetGen's own finding, the facet that failed a
+    // check, the narrowest gap.
+    std::string place(std::span<const Polygon> polygons, FacetId failed) const {
+        const auto trouble = find_trouble(complex_);
+        const auto at = [](Point x) {
+            return fmt::format("({:.6g}, {:.6g}, {:.6g})", x.x, x.y, x.z);
+        };
+        const auto names = [&](std::span<const FacetId> facets) {
+            return names_of(facets, complex_, polygons);
+        };
+        if (trouble && trouble->gap == 0.0) {
+            const FacetId pair[] = {trouble->first, trouble->second};
+            return fmt::format("{} cross or overlap near {}.", names(pair), at(trouble->where));
+        }
+        auto found = diagnose(worker_, input_, groups_, {20.0, options_.max_bytes});
+        if (found.empty() && failed.valid()) {
+            found.push_back(failed);
+        }
+        if (!found.empty()) {
+            const auto corner = complex_.facets[found.front().value].corners[0];
+            return fmt::format("Look at {} near {}.", names(found),
+                               at(complex_.points[corner.value]));
+        }
+        if (trouble) {
+            const FacetId pair[] = {trouble->first, trouble->second};
+            return fmt::format("{} come within {:.3g} m of each other near {}.", names(pair),
+                               trouble->gap, at(trouble->where));
+        }
+        return "No single place was found.";
+    }
+
     double remaining() const {
         const std::chrono::duration<double> used = std::chrono::steady_clock::now() - start_;
         return std::max(options_.max_seconds - used.count(), 0.0);

@@ -68,9 +68,8 @@ TEST_CASE("a lone polygon keeps its area and owns both sides", "[conform]") {
     check_owned(complex, 0, 6.0, 6.0);
     for (const auto& facet : complex.facets) {
         const auto& p = complex.points;
-        const auto n =
-            glm::cross(p[facet.corners[1].value] - p[facet.corners[0].value],
-                       p[facet.corners[2].value] - p[facet.corners[0].value]);
+        const auto n = glm::cross(p[facet.corners[1].value] - p[facet.corners[0].value],
+                                  p[facet.corners[2].value] - p[facet.corners[0].value]);
         CHECK(n.z > 0.0);
         CHECK(facet.front.side == Side::front);
         CHECK(facet.back.side == Side::back);
@@ -86,17 +85,19 @@ TEST_CASE("a lit room: window, box on the floor, lamp outside", "[conform]") {
     for (const auto& facet : complex.facets) {
         CHECK(facet.opacity == Opacity::opaque);
     }
-    // The box's bottom looks down: its front owns the floor's back there, and the floor keeps its front.
+    // The box's bottom looks down: its front owns the floor's back there, and the floor keeps its
+    // front.
     check_owned(complex, 0, 20.0, 20.0 - 0.75 * 0.75);
     check_owned(complex, 12, 0.75 * 0.75, 0.0);
 }
 
 TEST_CASE("an opening in a wall that leaves room for it is an interface", "[conform]") {
     // A frame of four sheets around an opening.
-    const Polygons scene{
-        sheet({0, 0, 0}, {3, 0, 0}, {0, 0, 1}, "wall"), sheet({0, 0, 2}, {3, 0, 0}, {0, 0, 1}, "wall"),
-        sheet({0, 0, 1}, {1, 0, 0}, {0, 0, 1}, "wall"), sheet({2, 0, 1}, {1, 0, 0}, {0, 0, 1}, "wall"),
-        sheet({1, 0, 1}, {1, 0, 0}, {0, 0, 1}, "door", Opacity::interface)};
+    const Polygons scene{sheet({0, 0, 0}, {3, 0, 0}, {0, 0, 1}, "wall"),
+                         sheet({0, 0, 2}, {3, 0, 0}, {0, 0, 1}, "wall"),
+                         sheet({0, 0, 1}, {1, 0, 0}, {0, 0, 1}, "wall"),
+                         sheet({2, 0, 1}, {1, 0, 0}, {0, 0, 1}, "wall"),
+                         sheet({1, 0, 1}, {1, 0, 0}, {0, 0, 1}, "door", Opacity::interface)};
     const auto complex = conform_and_check(scene);
     double open = 0.0;
     for (const auto& facet : complex.facets) {
@@ -203,17 +204,26 @@ TEST_CASE("planes within the tolerance are one", "[conform]") {
 }
 
 TEST_CASE("polygons: not convex, collinear and repeated corners, a slit to a hole", "[conform]") {
-    const auto ell = polygon(
-        {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}}, "ell");
-    const auto dotted = polygon({{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 2, 0}, {1, 2, 0},
-                                 {0, 2, 0}, {0, 0, 0}},
-                                "dotted");
-    const auto frame = polygon({{0, 0, 0}, {3, 0, 0}, {3, 3, 0}, {0, 3, 0}, {0, 0, 0}, {1, 1, 0},
-                                {1, 2, 0}, {2, 2, 0}, {2, 1, 0}, {1, 1, 0}},
+    const auto ell =
+        polygon({{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}}, "ell");
+    const auto dotted = polygon(
+        {{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {2, 0, 0}, {2, 2, 0}, {1, 2, 0}, {0, 2, 0}, {0, 0, 0}},
+        "dotted");
+    const auto frame = polygon({{0, 0, 0},
+                                {3, 0, 0},
+                                {3, 3, 0},
+                                {0, 3, 0},
+                                {0, 0, 0},
+                                {1, 1, 0},
+                                {1, 2, 0},
+                                {2, 2, 0},
+                                {2, 1, 0},
+                                {1, 1, 0}},
                                "frame");
     CHECK(areas_by_polygon(conform_and_check({ell}), 1)[0] == Approx(3.0).epsilon(rounding));
     CHECK(areas_by_polygon(conform_and_check({dotted}), 1)[0] == Approx(4.0).epsilon(rounding));
-    const Polygons framed{frame, sheet({1, 1, 0}, {1, 0, 0}, {0, 1, 0}, "hole", Opacity::interface)};
+    const Polygons framed{frame,
+                          sheet({1, 1, 0}, {1, 0, 0}, {0, 1, 0}, "hole", Opacity::interface)};
     const auto complex = conform_and_check(rotated(framed, {1, 1, 1}, 0.4));
     check_owned(complex, 0, 8.0, 8.0);
 }
