@@ -297,7 +297,7 @@ ConformingComplex conform(std::span<const Polygon> polygons, const ConformOption
     double tolerance = options.tolerance * check_corners(polygons, options.tolerance);
     auto soup = soup_of(polygons, tolerance);
     auto facets = cut(soup);
-    constexpr int rounds = 3;
+    constexpr int rounds = 4;
     for (int round = 0;; ++round) {
         const auto corners = corners_of(facets);
         const auto crossings = crossing_pairs(soup.weld.points(), corners);
@@ -309,7 +309,7 @@ ConformingComplex conform(std::span<const Polygon> polygons, const ConformOption
             throw_crossing(polygons, facets[i].owners, facets[j].owners,
                            soup.at(facets[i].corners[0]));
         }
-        tolerance *= 2.0;
+        tolerance *= 4.0;
         soup = soup_of(soup, facets, tolerance);
         facets = cut(soup);
     }

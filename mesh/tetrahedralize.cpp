@@ -30,9 +30,8 @@ struct Attempt {
 // would keep it adding points for ever, so it may add only some (-S), and not take long. Then
 // facets left as they are.
 std::array<Attempt, 2> attempts(std::size_t facets) {
-    return {
-        {{fmt::format("pq2.0S{}Q", 500 + facets / 2), 20.0 + 5e-4 * static_cast<double>(facets)},
-         {"pYQ", 1e9}}};
+    return {{{fmt::format("pq2.0S{}Q", 500 + facets / 2), 8.0 + 1e-3 * static_cast<double>(facets)},
+             {"pYQ", 1e9}}};
 }
 
 void check(const ConformingComplex& complex, const TetrahedralizeOptions& options) {

@@ -293,6 +293,24 @@ TEST_CASE("a gap of 1e-5 m between two plates stays open", "[conform]") {
     CHECK(complex.points.size() == 8);
 }
 
+TEST_CASE("a quad of single precision, warped beyond the tolerance, is still one", "[conform]") {
+    Polygons scene{sheet({0, 0, 0}, {3, 0, 0}, {0, 3, 0}, "floor")};
+    scene.push_back(polygon({{1, 1, 1}, {2, 1, 1}, {2, 2, 1 + 5e-6}, {1, 2, 1}}, "warped"));
+    conform_and_check(scene, 1e-9);  // its area changes by the square of the warp
+}
+
+TEST_CASE("sheets that cross at almost no angle", "[conform]") {
+    const double slope = std::pow(10.0, GENERATE(-3, -4, -5, -6, -7, -8));
+    const Polygons scene{
+        sheet({0, 0, 0}, {2, 0, 0}, {0, 2, 0}, "level"),
+        sheet({0.3, 0.4, -slope}, {2, 0, 2 * slope}, {0.1, 2, 0.3 * slope}, "slant")};
+    // Where they merge, a point moves by up to 256 times the tolerance, along edges of 8 m in all.
+    const auto complex = conform(scene);
+    const auto areas = areas_by_polygon(complex, 2);
+    CHECK(areas[0] == Approx(4.0).margin(8.0 * 2.56e-5 * 3.6));
+    CHECK(areas[1] == Approx(area_of(scene[1].corners)).margin(8.0 * 2.56e-5 * 3.6));
+}
+
 TEST_CASE("what cannot be conformed says why", "[conform]") {
     const auto bad = [](std::vector<Point> corners) {
         return Polygons{sheet({0, 0, 0}, {3, 0, 0}, {0, 3, 0}, "floor"),
@@ -313,6 +331,9 @@ TEST_CASE("what cannot be conformed says why", "[conform]") {
                       Contains("culprit") && Contains("no area"));
     CHECK_THROWS_WITH(conform(bad({{0, 0, 1}, {0, 0, 1}, {1, 0, 1}, {1, 0, 1}})),
                       Contains("culprit") && Contains("no area"));
+    CHECK_THROWS_WITH(
+        conform(bad({{0, 0, 1}, {1, 0, 1}, {0, 1, 1}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}})),
+        Contains("culprit") && Contains("overlaps itself"));
     CHECK_THROWS_AS(conform(bad({{0, 0, 1}, {1e200, 0, 1}, {1, 1e200, 1}})), InputError);
 }
 
