@@ -33,27 +33,29 @@ std::string list_of(std::span<const std::string_view> names, std::string_view li
     return text;
 }
 
+std::optional<std::string_view> nearest(std::string_view unknown,
+                                        std::span<const std::string_view> known) {
+    if (known.empty()) return std::nullopt;
+    const auto near = std::min_element(known.begin(), known.end(), [&](auto a, auto b) {
+        return edit_distance(unknown, a) < edit_distance(unknown, b);
+    });
+    const std::size_t least = edit_distance(unknown, *near);
+    const std::size_t longer = std::max(unknown.size(), near->size());
+    if (least <= std::max<std::size_t>(1, longer / 3) && least < longer) return *near;
+    for (const std::string_view name : known) {  // fov → fov_x, rotation → rotate
+        const bool inside = unknown.find(name) != unknown.npos || name.find(unknown) != name.npos;
+        if (inside && unknown.size() > 2 && name.size() > 2) return name;
+        const auto end = std::mismatch(unknown.begin(), unknown.end(), name.begin(), name.end());
+        const auto shared = static_cast<std::size_t>(end.first - unknown.begin());
+        if (shared >= 3 && 2 * shared >= std::max(unknown.size(), name.size())) return name;
+    }
+    return std::nullopt;
+}
+
 std::string suggest(std::string_view unknown, std::span<const std::string_view> known) {
     if (known.empty()) return "";
-    std::string_view nearest;
-    std::size_t least = ~std::size_t(0);
-    for (const std::string_view name : known) {
-        const std::size_t distance = edit_distance(unknown, name);
-        if (distance < least) {
-            least = distance;
-            nearest = name;
-        }
-    }
-    const std::size_t longer = std::max(unknown.size(), nearest.size());
-    if (least <= std::max<std::size_t>(1, longer / 3) && least < longer) {
-        return fmt::format("Did you mean \"{}\"?", nearest);
-    }
-    for (const std::string_view name : known) {
-        const bool inside = unknown.find(name) != unknown.npos || name.find(unknown) != name.npos;
-        if (inside && unknown.size() > 2 && name.size() > 2) {
-            return fmt::format("Did you mean \"{}\"?", name);
-        }
-    }
+    if (const auto near = nearest(unknown, known))
+        return fmt::format("Did you mean \"{}\"?", *near);
     return fmt::format("Known here: {}.", list_of(known));
 }
 

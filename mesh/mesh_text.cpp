@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstring>
 #include <string_view>
 
@@ -42,6 +44,21 @@ class Lines {
             if (result.ec == std::errc() && result.ptr == w.data() + w.size()) return value;
         }
         fail(fmt::format("{} is expected here, a whole number. Correct the file.", what));
+    }
+
+    // The words from `first` to `last` must be finite numbers.
+    void check_numbers(std::size_t first, std::size_t last) const {
+        for (std::size_t i = first; i < last; ++i) {
+            double value = 0.0;
+            const char* end = words_[i].data() + words_[i].size();
+            const bool plus = words_[i].starts_with('+');
+            const auto result = std::from_chars(words_[i].data() + plus, end, value);
+            if (result.ec != std::errc() || result.ptr != end) {
+                fail(fmt::format("\"{}\" is not a number. Correct it.", words_[i].substr(0, 40)));
+            }
+            if (!std::isfinite(value))
+                fail(fmt::format("{} is not finite. Correct it.", words_[i]));
+        }
     }
 
   private:
@@ -89,6 +106,7 @@ void check_body(Lines& lines, std::size_t vertices, std::size_t faces) {
                                    vertices));
         if (lines.words().size() < 3)
             lines.fail("a vertex has fewer than three coordinates. Give x, y and z.");
+        lines.check_numbers(0, lines.words().size());
     }
     for (std::size_t i = 0; i < faces; ++i) {
         if (!lines.next())
@@ -123,61 +141,150 @@ std::size_t size_of_type(std::string_view type) {
     return four ? 4 : 0;
 }
 
-struct PlyHead {
-    std::size_t vertices = 0, faces = 0;
-    std::size_t vertex_bytes = 0, face_bytes = 0;   // at least, in a binary file
-    std::string_view first_element, face_property;  // the first one's kind: "list" or a type
-    bool binary = false;
+struct PlyProperty {
+    std::string_view name;
+    std::size_t bytes = 0;        // of a value
+    std::size_t count_bytes = 0;  // of a list's count; 0: no list
 };
+
+struct PlyElement {
+    std::string_view name;
+    std::size_t count = 0;
+    std::vector<PlyProperty> properties;
+};
+
+struct PlyHead {
+    std::vector<PlyElement> elements;
+    std::string_view format;
+
+    std::size_t count_of(std::string_view name) const {
+        for (const PlyElement& element : elements) {
+            if (element.name == name) return element.count;
+        }
+        return 0;
+    }
+};
+
+PlyProperty read_ply_property(const Lines& lines) {
+    const auto& words = lines.words();
+    const bool list = words.size() == 5 && words[1] == "list";
+    if (!list && words.size() != 3)
+        lines.fail("a property has a type and a name. Correct the file.");
+    const PlyProperty property{words.back(), size_of_type(words[list ? 3 : 1]),
+                               list ? size_of_type(words[2]) : 0};
+    if (property.bytes == 0 || (list && property.count_bytes == 0)) {
+        lines.fail(fmt::format("\"{}\" is no type of a property. Correct the file.", words[1]));
+    }
+    return property;
+}
 
 PlyHead read_ply_head(Lines& lines) {
     if (!lines.next() || lines.words()[0] != "ply")
         lines.fail("a PLY file begins with ply. Is the file one?");
     PlyHead head;
-    std::string_view element;
-    while (lines.next() && lines.words()[0] != "end_header") {
+    bool ended = false;
+    while (!ended && lines.next()) {
         const auto& words = lines.words();
-        if (words[0] == "format") head.binary = words.size() > 1 && words[1] != "ascii";
+        ended = words[0] == "end_header";
+        if (words[0] == "format" && words.size() > 1) head.format = words[1];
         if (words[0] == "element" && words.size() > 1) {
-            element = words[1];
-            if (head.first_element.empty()) head.first_element = element;
-            if (element == "vertex") head.vertices = lines.count(2, "the count of vertices");
-            if (element == "face") head.faces = lines.count(2, "the count of faces");
+            head.elements.push_back({words[1], lines.count(2, "the count of an element"), {}});
         }
-        if (words[0] != "property" || words.size() < 3) continue;
-        const std::size_t bytes =
-            words[1] == "list" ? size_of_type(words[2]) : size_of_type(words[1]);
-        if (bytes == 0)
-            lines.fail(fmt::format("\"{}\" is no type of a property. Correct the file.", words[1]));
-        if (element == "vertex") head.vertex_bytes += bytes;
-        if (element == "face") head.face_bytes += bytes;
-        if (element == "face" && head.face_property.empty()) head.face_property = words[1];
+        if (words[0] == "property" && !head.elements.empty()) {
+            head.elements.back().properties.push_back(read_ply_property(lines));
+        }
     }
-    if (lines.words().empty() || lines.words()[0] != "end_header") {
-        lines.fail("the file ends before end_header. Is it truncated?");
-    }
+    if (!ended) lines.fail("the file ends before end_header. Is it truncated?");
     return head;
 }
+
+// Walks a binary body: every value there, every face of at least three corners in range.
+class PlyBody {
+  public:
+    PlyBody(std::string_view bytes, bool big_endian, const Lines& lines)
+        : bytes_(bytes), big_endian_(big_endian), lines_(lines) {}
+
+    void check(const PlyElement& element, std::size_t vertices) {
+        for (std::size_t i = 0; i < element.count; ++i) {
+            for (const PlyProperty& property : element.properties) {
+                if (property.count_bytes == 0) {
+                    skip(property.bytes, element, i);
+                } else {
+                    check_list(property, element, i, vertices);
+                }
+            }
+        }
+    }
+
+  private:
+    void skip(std::size_t count, const PlyElement& element, std::size_t i) {
+        if (bytes_.size() - at_ < count) {
+            lines_.fail(
+                fmt::format("the file ends behind {} of {} elements \"{}\". Is it truncated?", i,
+                            element.count, element.name));
+        }
+        at_ += count;
+    }
+
+    std::uint64_t integer(std::size_t size, const PlyElement& element, std::size_t i) {
+        skip(size, element, i);
+        std::uint64_t value = 0;
+        for (std::size_t k = 0; k < size; ++k) {
+            const std::size_t byte = big_endian_ ? at_ - size + k : at_ - 1 - k;
+            value = value << 8 | static_cast<unsigned char>(bytes_[byte]);
+        }
+        return value;
+    }
+
+    void check_list(const PlyProperty& property, const PlyElement& element, std::size_t i,
+                    std::size_t vertices) {
+        const std::uint64_t count = integer(property.count_bytes, element, i);
+        if (element.name != "face" || !property.name.starts_with("vertex_ind")) {
+            if (count > bytes_.size()) skip(bytes_.size(), element, i);
+            return skip(count * property.bytes, element, i);
+        }
+        if (count < 3 || count > vertices) {
+            lines_.fail(fmt::format("face {} has {} corners. Correct the file.", i, count));
+        }
+        for (std::uint64_t k = 0; k < count; ++k) {
+            const std::uint64_t index = integer(property.bytes, element, i);
+            if (index >= vertices) {
+                lines_.fail(
+                    fmt::format("corner {} of face {} is out of range: there are {} vertices, from "
+                                "0. Correct the file.",
+                                index, i, vertices));
+            }
+        }
+    }
+
+    std::string_view bytes_;
+    bool big_endian_;
+    const Lines& lines_;
+    std::size_t at_ = 0;
+};
 
 FileCounts check_ply(const std::string& text, const std::string& name) {
     Lines lines(text, name);
     const PlyHead head = read_ply_head(lines);
-    if (head.vertices == 0 || head.faces == 0)
+    const std::size_t vertices = head.count_of("vertex"), faces = head.count_of("face");
+    if (vertices == 0 || faces == 0)
         lines.fail("the head promises no vertices or no faces. Export it again.");
-    if (head.binary) {
-        const double needed = double(head.vertices) * double(head.vertex_bytes) +
-                              double(head.faces) * double(head.face_bytes);
-        const double there = double(text.size()) - double(lines.position());
-        if (there < needed) {
-            lines.fail(fmt::format(
-                "the head promises {} vertices and {} faces, {} bytes or more; {} bytes "
-                "are there. Is the file truncated?",
-                head.vertices, head.faces, needed, there));
-        }
-    } else if (head.first_element == "vertex" && head.face_property == "list") {
-        check_body(lines, head.vertices, head.faces);
+    if (head.format == "ascii") {
+        const auto& elements = head.elements;
+        const bool usual = elements.size() >= 2 && elements[0].name == "vertex" &&
+                           elements[1].name == "face" && elements[1].properties.size() >= 1 &&
+                           elements[1].properties[0].count_bytes > 0;
+        if (!usual)
+            lines.fail(
+                "vertices, then faces that begin with their corners, are expected. Export it "
+                "again.");
+        check_body(lines, vertices, faces);
+    } else {
+        PlyBody body(std::string_view(text).substr(lines.position()),
+                     head.format == "binary_big_endian", lines);
+        for (const PlyElement& element : head.elements) body.check(element, vertices);
     }
-    return {head.vertices, head.faces, head.binary};
+    return {vertices, faces, head.format != "ascii"};
 }
 
 FileCounts check_stl(const std::string& text, const std::string& name) {
