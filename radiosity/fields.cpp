@@ -1,0 +1,69 @@
+#include "radiosity/fields.h"
+
+namespace tyndall::radiosity {
+
+Affine interpolate(const std::array<Point, 4>& p, const std::array<double, 4>& f) {
+    const auto a = p[1] - p[0], b = p[2] - p[0], c = p[3] - p[0];
+    const auto bc = glm::cross(b, c), ca = glm::cross(c, a), ab = glm::cross(a, b);
+    const double determinant = glm::dot(a, bc);
+    const double scale = glm::length(a) * glm::length(b) * glm::length(c);
+    const double mean = 0.25 * (f[0] + f[1] + f[2] + f[3]);
+    if (!(std::abs(determinant) > 1e-9 * scale)) return {Direction(0.0), mean};
+    Affine result;
+    result.gradient = ((f[1] - f[0]) * bc + (f[2] - f[0]) * ca + (f[3] - f[0]) * ab) / determinant;
+    const Point centroid = 0.25 * (p[0] + p[1] + p[2] + p[3]);
+    result.constant = mean - glm::dot(result.gradient, centroid);
+    return result;
+}
+
+Affine interpolate(const std::array<Point, 3>& p, const std::array<double, 3>& f) {
+    const auto a = p[1] - p[0], b = p[2] - p[0];
+    const auto n = glm::cross(a, b);
+    const double square = glm::dot(n, n);
+    const double mean = (f[0] + f[1] + f[2]) / 3.0;
+    if (!(square > 1e-18 * glm::dot(a, a) * glm::dot(b, b))) return {Direction(0.0), mean};
+    Affine result;
+    result.gradient =
+        ((f[1] - f[0]) * glm::cross(b, n) + (f[2] - f[0]) * glm::cross(n, a)) / square;
+    const Point centroid = (p[0] + p[1] + p[2]) / 3.0;
+    result.constant = mean - glm::dot(result.gradient, centroid);
+    return result;
+}
+
+void extend(const Forest& forest, Fields& fields) {
+    const std::size_t zones = fields.zone.size() / fields.bands;
+    const std::size_t patches = fields.patch.size() / fields.bands;
+    fields.resize(forest, fields.bands);
+    for (std::size_t b = 0; b < fields.bands; ++b) {
+        for (std::size_t z = zones; z < forest.zone_count(); ++z)
+            fields.at(ZoneId(z), b) = fields.at(forest[ZoneId(z)].parent, b);
+        for (std::size_t p = patches; p < forest.patch_count(); ++p)
+            fields.at(PatchId(p), b) = fields.at(forest[PatchId(p)].parent, b);
+    }
+}
+
+void coarsen(const Forest& forest, Fields& fields) {
+    // Children have higher indices than their parents: backwards is bottom-up.
+    for (std::size_t z = forest.zone_count(); z-- > 0;) {
+        const ZoneId parent(z);
+        if (forest.is_leaf(parent)) continue;
+        const ZoneId first = forest[parent].first_child, second(first.value + 1ull);
+        const double v0 = forest.volume(first), v1 = forest.volume(second);
+        const double w0 = v0 + v1 > 0.0 ? v0 / (v0 + v1) : 0.5, w1 = 1.0 - w0;
+        const Point c0 = forest.centroid(first), c1 = forest.centroid(second);
+        const auto step = c1 - c0;
+        const double square = glm::dot(step, step);
+        for (std::size_t b = 0; b < fields.bands; ++b) {
+            const Affine &f0 = fields.at(first, b), &f1 = fields.at(second, b);
+            const double m0 = f0.at(c0), m1 = f1.at(c1);
+            Affine& f = fields.at(parent, b);
+            f.gradient = w0 * f0.gradient + w1 * f1.gradient;
+            if (square > 0.0)
+                f.gradient += step * ((m1 - m0 - glm::dot(f.gradient, step)) / square);
+            const double mean = w0 * m0 + w1 * m1;
+            f.constant = mean - glm::dot(f.gradient, forest.centroid(parent));
+        }
+    }
+}
+
+}  // namespace tyndall::radiosity

@@ -1,0 +1,71 @@
+// The documents say what the program does: their scenes can be read, their reference is complete.
+#if __has_include(<catch2/catch_all.hpp>)
+#include <catch2/catch_all.hpp>
+#else
+#include <catch2/catch.hpp>
+#endif
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "cli/scene_file.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+const fs::path root = TYNDALL_SOURCE_DIR;
+const fs::path scratch = fs::path(TYNDALL_BINARY_DIR) / "documents";
+
+std::string text_of(const fs::path& file) {
+    std::ifstream in(file);
+    REQUIRE(in);
+    std::ostringstream text;
+    text << in.rdbuf();
+    return text.str();
+}
+
+void write(const fs::path& file, const std::string& text) {
+    fs::create_directories(file.parent_path());
+    std::ofstream(file) << text;
+}
+
+// The ```toml blocks of a document that are whole scenes: those that say their format.
+std::vector<std::string> scenes_in(const std::string& document) {
+    const std::string begin = "```toml\n";
+    std::vector<std::string> scenes;
+    for (auto at = document.find(begin); at != std::string::npos; at = document.find(begin, at)) {
+        at += begin.size();
+        const std::string block = document.substr(at, document.find("```", at) - at);
+        if (block.rfind("format", 0) == 0) scenes.push_back(block);
+    }
+    return scenes;
+}
+
+}  // namespace
+
+TEST_CASE("the guide's reference lists every key, as the program knows them") {
+    const std::string reference = tyndall::cli::scene_file_reference();
+    const bool current =
+        text_of(root / "docs/guide/02-scene-file.md").find(reference) != std::string::npos;
+    if (!current) write(scratch / "scene_file_reference.md", reference);
+    INFO("Replace the reference in docs/guide/02-scene-file.md by "
+         << scratch / "scene_file_reference.md");
+    CHECK(current);
+}
+
+TEST_CASE("whole scenes in the documents can be read") {
+    std::size_t count = 0;
+    for (const auto* document :
+         {"README.md", "docs/guide/02-scene-file.md", "docs/guide/03-light-shafts.md"}) {
+        for (const auto& scene : scenes_in(text_of(root / document))) {
+            const fs::path file = scratch / ("scene_" + std::to_string(count++) + ".toml");
+            write(file, scene);
+            INFO(document << "\n" << scene);
+            CHECK_NOTHROW(tyndall::cli::read_scene_file(file));
+        }
+    }
+    CHECK(count >= 2);  // the README's and the guide's first
+}
