@@ -9,9 +9,6 @@
 
 namespace tyndall::cli {
 
-// Edits (insert, delete, replace, swap of neighbours) that turn a into b. Cost: O(|a| |b|).
-std::size_t edit_distance(std::string_view a, std::string_view b);
-
 // The known name nearest to `unknown`: at most a third of its letters off, or one holds the other,
 // or they share half their letters from the first on. None if nothing is near.
 std::optional<std::string_view> nearest(std::string_view unknown,
