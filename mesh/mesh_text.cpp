@@ -32,7 +32,7 @@ class Lines {
     }
     const std::vector<std::string_view>& words() const { return words_; }
     // Where the next line begins, in bytes.
-    std::size_t position() const { return begin_; }
+    std::size_t position() const { return std::min(begin_, text_.size()); }
     [[noreturn]] void fail(const std::string& message) const {
         throw InputError(fmt::format("{}:{}: {}", name_, number_, message));
     }
@@ -121,12 +121,19 @@ FileCounts check_off(const std::string& text, const std::string& name) {
     if (!lines.next() || !lines.words()[0].ends_with("OFF")) {
         lines.fail("an OFF file begins with OFF. Is the file one?");
     }
-    if (lines.words().size() > 1)
-        return {};  // binary, or counts on this line: the reader's own affair
     const bool plain = lines.words()[0] == "OFF";
-    if (!lines.next()) lines.fail("the file ends before its counts. Is it truncated?");
-    const std::size_t vertices = lines.count(0, "the count of vertices"),
-                      faces = lines.count(1, "the count of faces");
+    const bool same_line = lines.words().size() > 1;
+    if (same_line && lines.words()[1] == "BINARY")
+        lines.fail("a binary OFF file is not read. Export it as text.");
+    if (!same_line && !lines.next())
+        lines.fail("the file ends before its counts. Is it truncated?");
+    const std::size_t vertices = lines.count(same_line ? 1 : 0, "the count of vertices"),
+                      faces = lines.count(same_line ? 2 : 1, "the count of faces");
+    if (vertices > text.size() || faces > text.size()) {
+        lines.fail(
+            fmt::format("{} vertices and {} faces do not fit into the file. Is it truncated?",
+                        vertices, faces));
+    }
     if (plain) check_body(lines, vertices, faces);
     return {vertices, faces};
 }
@@ -178,24 +185,62 @@ PlyProperty read_ply_property(const Lines& lines) {
     return property;
 }
 
+// What OpenMesh's reader does not know it may read for ever: nothing but the known passes.
+void check_ply_format(const Lines& lines) {
+    const auto& words = lines.words();
+    const bool known = words.size() == 3 && words[2] == "1.0" &&
+                       (words[1] == "ascii" || words[1] == "binary_little_endian" ||
+                        words[1] == "binary_big_endian");
+    if (!known) {
+        lines.fail(
+            "the format is not ascii, binary_little_endian or binary_big_endian 1.0. Export it "
+            "again.");
+    }
+}
+
 PlyHead read_ply_head(Lines& lines) {
     if (!lines.next() || lines.words()[0] != "ply")
         lines.fail("a PLY file begins with ply. Is the file one?");
     PlyHead head;
-    bool ended = false;
-    while (!ended && lines.next()) {
+    while (lines.next()) {
         const auto& words = lines.words();
-        ended = words[0] == "end_header";
-        if (words[0] == "format" && words.size() > 1) head.format = words[1];
-        if (words[0] == "element" && words.size() > 1) {
+        if (words[0] == "end_header") return head;
+        if (words[0] == "comment" || words[0] == "obj_info") continue;
+        if (words[0] == "format") {
+            check_ply_format(lines);
+            head.format = words[1];
+        } else if (words[0] == "element" && words.size() == 3) {
             head.elements.push_back({words[1], lines.count(2, "the count of an element"), {}});
-        }
-        if (words[0] == "property" && !head.elements.empty()) {
+        } else if (words[0] == "property" && !head.elements.empty()) {
             head.elements.back().properties.push_back(read_ply_property(lines));
+        } else {
+            lines.fail(fmt::format("\"{}\" begins no statement of a PLY head. Correct the file.",
+                                   words[0].substr(0, 40)));
         }
     }
-    if (!ended) lines.fail("the file ends before end_header. Is it truncated?");
-    return head;
+    lines.fail("the file ends before end_header. Is it truncated?");
+}
+
+// Vertices have x, y, z; faces their corners.
+void check_ply_properties(const PlyHead& head, const Lines& lines) {
+    const auto has = [&](std::string_view element, std::string_view property, bool list) {
+        for (const PlyElement& e : head.elements) {
+            for (const PlyProperty& p : e.properties) {
+                if (e.name == element && p.name == property && (p.count_bytes > 0) == list)
+                    return true;
+            }
+        }
+        return false;
+    };
+    const bool whole = !head.format.empty() && has("vertex", "x", false) &&
+                       has("vertex", "y", false) && has("vertex", "z", false) &&
+                       (has("face", "vertex_indices", true) || has("face", "vertex_index", true));
+    if (!whole) {
+        lines.fail(
+            "the head lacks the format, or x, y, z of the vertices, or vertex_indices of the "
+            "faces. "
+            "Export it again.");
+    }
 }
 
 // Walks a binary body: every value there, every face of at least three corners in range.
@@ -266,6 +311,7 @@ class PlyBody {
 FileCounts check_ply(const std::string& text, const std::string& name) {
     Lines lines(text, name);
     const PlyHead head = read_ply_head(lines);
+    check_ply_properties(head, lines);
     const std::size_t vertices = head.count_of("vertex"), faces = head.count_of("face");
     if (vertices == 0 || faces == 0)
         lines.fail("the head promises no vertices or no faces. Export it again.");

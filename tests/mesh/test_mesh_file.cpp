@@ -65,7 +65,7 @@ std::string obj() {
     text += "vn 0 0 1\nvt 0 0\n";
     for (const auto& s : sides) {
         text += "f";
-        for (const int i : s) text += " " + std::to_string(i + 1) + "/1/1";
+        for (const int i : s) text.append(" ").append(std::to_string(i + 1)).append("/1/1");
         text += "\n";
     }
     return text;
