@@ -145,7 +145,7 @@ void mean_transmittance(const OpticalDepth& depth, const Receiver& receiver,
         open.pop_back();
         const double wide = spread(t);
         double varies = sum.look(t, degree_2);
-        if (varies <= low_share * step && (wide < 0.25 || varies < flat * step)) {
+        if (varies <= low_share * step && wide * varies <= little * step) {
             sum.deposit(degree_2.size());
             continue;
         }
