@@ -13,7 +13,7 @@ constexpr std::size_t most_triangles = 1024;  // a polygon; then the rest is tak
 constexpr double low_share = 0.1;             // of the step, up to which three points are enough
 constexpr double flat = 1e-3;  // variation, of the step, too small for the weights' shape to matter
 // Variation of the exponent × spread of the weights, of the step: three points then err by 1e-6.
-constexpr double little = 5e-4;
+constexpr double little = 5e-5;
 
 struct Node {
     double a, b, c, weight;  // barycentric
