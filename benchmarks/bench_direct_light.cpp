@@ -21,16 +21,18 @@ radiosity::Surface surface(const std::string& name, std::vector<mesh::Polygon> p
 // The room, its openings, a box on the floor, and a lamp that looks at the windows.
 radiosity::Scene window_shafts() {
     radiosity::Scene scene;
-    scene.materials = {{.name = "grey", .reflectance = {0.5}, .where = ""},
-                       {.name = "lamp", .reflectance = {0.0}, .emission = {2000.0}, .where = ""}};
+    scene.materials.resize(2);
+    scene.materials[0].reflectance = {0.5};
+    scene.materials[1].reflectance = {0.0};
+    scene.materials[1].emission = {2000.0};
     std::vector<mesh::FaceOpening> openings;
     for (const double y : {1.0, 1.75, 2.5})
         for (const double z : {1.0, 1.75}) {
-            const auto name = "w" + std::to_string(openings.size());
+            const std::string name(1, static_cast<char>('u' + openings.size()));
             openings.push_back({"x0", {name, {y, z}, {0.5, 0.5}}});
         }
     for (auto& face : mesh::room({0, 0, 0}, {5, 4, 3}, openings)) {
-        const bool opening = face.name[0] == 'w';
+        const bool opening = face.name.size() == 1;
         scene.surfaces.push_back(surface("room." + face.name, std::move(face.polygons),
                                          opening ? std::nullopt : std::optional<std::size_t>(0)));
     }
@@ -40,11 +42,10 @@ radiosity::Scene window_shafts() {
     const mesh::Direction u(0, 0.4, 0), v(0.252237050037786, 0, 0.310445600046506);
     for (auto& face : mesh::rectangle(corner, u, v))
         scene.surfaces.push_back(surface("lamp", std::move(face.polygons), 1));
-    scene.media = {{.name = "haze",
-                    .extinction = {0.15},
-                    .albedo = {1.0},
-                    .at = mesh::Point(2.5, 2, 2),
-                    .where = ""}};
+    scene.media.resize(1);
+    scene.media[0].extinction = {0.15};
+    scene.media[0].albedo = {1.0};
+    scene.media[0].at = mesh::Point(2.5, 2, 2);
     scene.viewpoints = {{4.7, 0.3, 1.7}};
     scene.environment = {0.0};
     return scene;
@@ -63,7 +64,7 @@ struct Points {
             const mesh::Point x(uniform(0, 5), uniform(0, 4), uniform(z_low, z_high));
             if (x.x > 2 && x.x < 2.75 && x.y > 1.5 && x.y < 2.25 && x.z < 0.75) continue;
             at.push_back(x);
-            tets.push_back(mesh::locate(mesh, x));
+            tets.push_back(mesh::locate(mesh, x + mesh::Point(0, 0, 1e-6)));  // above the floor
         }
     }
 };

@@ -364,3 +364,51 @@ TEST_CASE("The same bits on any thread", "[direct_light]") {
                       [&](std::size_t k) { many[k] = zone(light, e, points[k]); });
     CHECK(one == many);
 }
+
+TEST_CASE("On a wall, an edge or a corner the tet tells the side", "[direct_light]") {
+    // A partition at x = 0.5; the lamp in the ceiling shines on its right side only.
+    const auto face = [](Point c, int axis) -> std::optional<Face> {
+        if (axis == 0 && c.x == 0.5) return Face{Opacity::opaque, wall, wall};
+        if (axis == 2 && c.z == 0.0) return Face{Opacity::opaque, wall, none};
+        if (axis == 2 && c.z == 1.0 && c.x > 0.5) return Face{Opacity::opaque, none, lamp};
+        return std::nullopt;
+    };
+    auto e = open_box({{{0.5}, {0.5}, {0.5}}}, face);
+    add_sides(e);
+    const DirectLight light(e);
+    for (const Point x : {Point(0.5, 0.4, 0.3), Point(0.5, 0.4, 0.0), Point(0.5, 0.5, 0.5)}) {
+        double left, right;
+        const Direction side(0.3, 0.01, 0.1);
+        light.at_zone(x, test::tet_at(e.mesh, x, side * Direction(-1, 1, 1)), {&left, 1});
+        light.at_zone(x, test::tet_at(e.mesh, x, side), {&right, 1});
+        CHECK(left < 1e-11);  // the lamp touches the partition's plane
+        CHECK(right > 0.03);
+        if (x.z > 0.0) continue;
+        light.at_patch(x, {0, 0, 1}, test::tet_at(e.mesh, x, side * Direction(-1, 1, 1)),
+                       {&left, 1});
+        light.at_patch(x, {0, 0, 1}, test::tet_at(e.mesh, x, side), {&right, 1});
+        CHECK(left < 1e-11);  // the lamp touches the partition's plane
+        CHECK(right > 0.03);
+    }
+}
+
+TEST_CASE("Direct power check: what a lamp sends out arrives", "[direct_light]") {
+    // A closed box, the ceiling lit, nothing in it: π Σ A H = π I A of the lamp.
+    const auto room = [](Point c, int axis) -> std::optional<Face> {
+        if (c[axis] == 0.0) return Face{Opacity::opaque, wall, none};
+        if (c[axis] == 1.0) return Face{Opacity::opaque, none, axis == 2 ? lamp : wall};
+        return std::nullopt;
+    };
+    auto e = open_box({}, room);
+    add_sides(e);
+    const DirectLight light(e);
+    double floor = 0.0, side = 0.0;
+    for (const auto& [u, wu] : test::gauss(24, 0, 1))
+        for (const auto& [v, wv] : test::gauss(24, 0, 1)) {
+            floor += wu * wv * pi * patch(light, e, {u, v, 0}, {0, 0, 1});
+            side += wu * wv * pi * patch(light, e, {0, u, v}, {1, 0, 0});
+        }
+    REQUIRE(light.powers().size() == 1);
+    // H jumps to 1/2 at the lamp's rim along a curve that Gauss's 24 points follow to about 1e-4.
+    CHECK(floor + 4 * side == Approx(light.powers()[0].power[0]).epsilon(2e-4));
+}
