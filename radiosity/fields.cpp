@@ -30,6 +30,18 @@ Affine interpolate(const std::array<Point, 3>& p, const std::array<double, 3>& f
     return result;
 }
 
+void extend(const Forest& forest, Fields& fields) {
+    const std::size_t zones = fields.zone.size() / fields.bands;
+    const std::size_t patches = fields.patch.size() / fields.bands;
+    fields.resize(forest, fields.bands);
+    for (std::size_t b = 0; b < fields.bands; ++b) {
+        for (std::size_t z = zones; z < forest.zone_count(); ++z)
+            fields.at(ZoneId(z), b) = fields.at(forest[ZoneId(z)].parent, b);
+        for (std::size_t p = patches; p < forest.patch_count(); ++p)
+            fields.at(PatchId(p), b) = fields.at(forest[PatchId(p)].parent, b);
+    }
+}
+
 void coarsen(const Forest& forest, Fields& fields) {
     // Children have higher indices than their parents: backwards is bottom-up.
     for (std::size_t z = forest.zone_count(); z-- > 0;) {

@@ -38,6 +38,9 @@ struct Fields {
     Affine& at(PatchId id, std::size_t band) { return patch[id.value * bands + band]; }
 };
 
+// Gives nodes that are new in the forest the functions of their parents.
+void extend(const Forest& forest, Fields& fields);
+
 // Gives inner zones the mean of their children, and the gradient that their means and gradients
 // say.
 void coarsen(const Forest& forest, Fields& fields);

@@ -23,4 +23,13 @@ struct Image {
     const Layer* find(const std::string& name) const;
 };
 
+// Purpose: the layer of that name; "" is the picture itself, and "direct_single" the sum
+//   emission + surfaces_direct + single_scattering, what light does with at most one scattering.
+// Errors: mesh::InputError that lists the layers there are.
+// Cost: a copy of the layer.
+Layer select_layer(const Image& image, const std::string& name);
+
+// Throws std::logic_error if an image has no layer, or a layer's size is not the image's.
+void check_sizes(const Image& image);
+
 }  // namespace tyndall::render

@@ -1,0 +1,9 @@
+#include "cli/commands.h"
+
+namespace tyndall::cli {
+
+void add_all_commands(Shell& shell) {
+    add_compare_command(shell);
+}
+
+}  // namespace tyndall::cli

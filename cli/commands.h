@@ -1,0 +1,57 @@
+// The subcommands of `tyndall`, one file each, and the shell that they are added to.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "cli/common_flags.h"
+
+namespace tyndall::cli {
+
+// Does a subcommand's work when its name was given. Returns the exit code: 0 done, 1 failed. Bad
+// input is thrown as mesh::InputError, which the shell prints.
+using Action = std::function<int(const CommonFlags&)>;
+
+// The program `tyndall`: parses the command line, runs the action of the subcommand that was given.
+class Shell {
+  public:
+    Shell();
+    ~Shell();
+    Shell(const Shell&) = delete;
+    Shell& operator=(const Shell&) = delete;
+
+    // Adds a subcommand with --threads, --quiet and --json. The caller adds its other options to
+    // what is returned, with variables that the action keeps alive (a shared_ptr). `examples`:
+    // whole lines for the end of its help.
+    CLI::App& add_command(const std::string& name, const std::string& purpose,
+                          const std::string& examples, Action action);
+
+    CommonFlags& flags() { return flags_; }
+
+    // Purpose: parse, run, and turn every outcome into an exit code: 0 done; 1 bad input or a
+    // failed run,
+    //   with one message on stderr; 2 wrong usage, with a message on stderr.
+    // A reader of stdout that goes away (`| head`) is no failure; a full disk under stdout is one.
+    int run(int argc, const char* const* argv);
+
+  private:
+    int parse_and_run(int argc, const char* const* argv);
+    int usage_error(const std::string& message) const;
+
+    std::unique_ptr<CLI::App> app_;
+    CommonFlags flags_;
+    Action chosen_;
+};
+
+// Writes results to stdout. A failure shows in the exit code when the command has ended.
+void write_output(std::string_view text);
+
+// Adds all subcommands.
+void add_all_commands(Shell& shell);
+
+// compare_command.cpp
+void add_compare_command(Shell& shell);
+
+}  // namespace tyndall::cli

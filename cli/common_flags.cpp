@@ -1,0 +1,50 @@
+#include "cli/common_flags.h"
+
+#include <CLI/CLI.hpp>
+
+namespace tyndall::cli {
+
+namespace {
+
+Setting parse_setting(const std::string& text) {
+    const auto equals = text.find('=');
+    if (equals == 0 || equals == std::string::npos)
+        throw CLI::ValidationError(
+            "--set", "'" + text + "' is not of the form key=value, as in solve.error=0.003");
+    return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+}  // namespace
+
+void add_common_flags(CLI::App& command, CommonFlags& flags) {
+    command.add_option("--threads", flags.threads, "Threads to use; 0: all")
+        ->type_name("N")
+        ->group("Common flags");
+    command.add_flag("-q,--quiet", flags.quiet, "No progress, no summary")->group("Common flags");
+    command.add_flag("--json", flags.json, "Machine-readable results to standard output")
+        ->group("Common flags");
+}
+
+void add_seed_flag(CLI::App& command, CommonFlags& flags) {
+    command
+        .add_option("--seed", flags.seed, "Seed of the sampling; the same seed, the same result")
+        ->type_name("S")
+        ->group("Common flags");
+}
+
+void add_set_flag(CLI::App& command, CommonFlags& flags) {
+    const auto keep = [&flags](const std::vector<std::string>& texts) {
+        for (const auto& text : texts) flags.settings.push_back(parse_setting(text));
+        return true;
+    };
+    command
+        .add_option_function<std::vector<std::string>>(
+            "--set", keep,
+            "Override a key of the file, repeatable: --set solve.error=0.003 "
+            "--set material.plaster.reflectance=0.3")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false)  // else it would swallow what follows
+        ->group("Common flags");
+}
+
+}  // namespace tyndall::cli

@@ -1,0 +1,176 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "cli/commands.h"
+#include "mesh/input_error.h"
+#include "render/compare.h"
+#include "render/image_files.h"
+
+namespace tyndall::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+using mesh::InputError;
+
+struct CompareOptions {
+    std::string picture, reference, layer, difference;
+    std::optional<double> difference_range;
+    std::optional<double> max_rmse, max_bias, max_block4, max_block16;
+};
+
+struct Side {
+    fs::path path;
+    std::size_t width = 0, height = 0;
+    render::Layer layer;
+};
+
+constexpr const char* examples =
+    R"(  tyndall compare out/ reference.pfm
+  tyndall compare out/image.exr direct.pfm --layer direct_single --difference off.png
+  tyndall compare out/ before/ --max-block4 0.01 || echo worse)";
+
+// The picture of a folder that `tyndall run` filled, or the file itself.
+fs::path picture_file(const std::string& given) {
+    fs::path path(given);
+    std::error_code ignored;
+    if (!fs::is_directory(path, ignored)) return path;
+    const auto picture = path / "image.exr";
+    if (!fs::exists(picture, ignored))
+        throw InputError(
+            fmt::format("the folder '{}' holds no image.exr. Make one: tyndall render "
+                        "'{}' -o '{}'.",
+                        given, given, picture.string()));
+    return picture;
+}
+
+Side load(const std::string& given, const std::string& layer) {
+    const auto path = picture_file(given);
+    const auto image = render::read_image(path);
+    // A PFM file holds one layer without a name: it is taken for the one that is asked for.
+    const bool nameless = image.layers.size() == 1 && path.extension() != ".exr";
+    try {
+        return {path, image.width, image.height, select_layer(image, nameless ? "" : layer)};
+    } catch (const InputError& error) {
+        throw InputError(fmt::format("'{}': {}", path.string(), error.what()));
+    }
+}
+
+nlohmann::ordered_json as_json(const Side& picture, const Side& reference,
+                               const render::PictureError& error) {
+    return {{"picture", picture.path.string()},
+            {"reference", reference.path.string()},
+            {"layer", picture.layer.name},
+            {"width", picture.width},
+            {"height", picture.height},
+            {"channels", picture.layer.channels},
+            {"mean", error.mean},
+            {"reference_mean", error.reference_mean},
+            {"rmse", error.rmse},
+            {"bias", error.bias},
+            {"block4", error.block4},
+            {"block16", error.block16},
+            {"max_error", error.max_error},
+            {"max_error_pixel", {error.max_x, error.max_y}},
+            {"not_finite", error.not_finite},
+            {"negative", error.negative}};
+}
+
+std::string as_text(const Side& picture, const Side& reference, const render::PictureError& error) {
+    auto text =
+        fmt::format("picture       {}, layer {}, {} x {}, {} channel{}\n", picture.path.string(),
+                    picture.layer.name, picture.width, picture.height, picture.layer.channels,
+                    picture.layer.channels == 1 ? "" : "s");
+    text += fmt::format("reference     {}\n", reference.path.string());
+    text += fmt::format("mean          {:.6g}, of the reference {:.6g}\n", error.mean,
+                        error.reference_mean);
+    text += fmt::format("bias          {:+.4f} %\n", 100.0 * error.bias);
+    text += fmt::format("RMSE          {:.4f} %\n", 100.0 * error.rmse);
+    text += fmt::format("4x4 blocks    {:.4f} %\n", 100.0 * error.block4);
+    text += fmt::format("16x16 blocks  {:.4f} %\n", 100.0 * error.block16);
+    text += fmt::format("largest       {:.4f} % at pixel ({}, {})\n", 100.0 * error.max_error,
+                        error.max_x, error.max_y);
+    text += "Errors are relative to the reference's mean.\n";
+    if (error.negative > 0) text += fmt::format("{} values are negative.\n", error.negative);
+    return text;
+}
+
+// What is wrong with the picture; empty if nothing.
+std::string verdict(const CompareOptions& options, const render::PictureError& error) {
+    std::string text;
+    const auto add = [&](const std::string& reason) {
+        text += (text.empty() ? "" : "; ") + reason;
+    };
+    const auto check = [&](const char* name, double value, const std::optional<double>& limit) {
+        if (limit && !(std::abs(value) <= *limit))
+            add(fmt::format("{} {:.6g} exceeds {:.6g}", name, value, *limit));
+    };
+    if (error.not_finite > 0) add(fmt::format("{} values are not finite", error.not_finite));
+    check("rmse", error.rmse, options.max_rmse);
+    check("bias", error.bias, options.max_bias);
+    check("block4", error.block4, options.max_block4);
+    check("block16", error.block16, options.max_block16);
+    return text;
+}
+
+void write_difference(const CompareOptions& options, const Side& picture, const Side& reference) {
+    const double range = options.difference_range
+                             ? *options.difference_range
+                             : render::difference_range(picture.layer, reference.layer);
+    render::write_image(options.difference,
+                        render::difference_picture(picture.width, picture.height, picture.layer,
+                                                   reference.layer, range));
+}
+
+int compare_pictures(const CompareOptions& options, const CommonFlags& flags) {
+    const auto picture = load(options.picture, options.layer);
+    const auto reference = load(options.reference, options.layer);
+    if (picture.width != reference.width || picture.height != reference.height)
+        throw InputError(
+            fmt::format("'{}' has {} × {} pixels and '{}' has {} × {}. Render them in "
+                        "the same size.",
+                        picture.path.string(), picture.width, picture.height,
+                        reference.path.string(), reference.width, reference.height));
+    const auto error =
+        render::compare(picture.width, picture.height, picture.layer, reference.layer);
+    if (!options.difference.empty()) write_difference(options, picture, reference);
+    if (flags.json)
+        write_output(as_json(picture, reference, error).dump(2) + "\n");
+    else if (!flags.quiet)
+        write_output(as_text(picture, reference, error));
+    const auto wrong = verdict(options, error);
+    if (!wrong.empty()) throw InputError(fmt::format("'{}': {}.", picture.path.string(), wrong));
+    return 0;
+}
+
+}  // namespace
+
+void add_compare_command(Shell& shell) {
+    const auto options = std::make_shared<CompareOptions>();
+    auto& command = shell.add_command(
+        "compare", "Errors of a picture against a reference", examples,
+        [options](const CommonFlags& flags) { return compare_pictures(*options, flags); });
+    command.add_option("A", options->picture, "Picture: .exr, .pfm, or a folder with image.exr")
+        ->required();
+    command.add_option("B", options->reference, "Reference, likewise")->required();
+    command.add_option("--layer", options->layer,
+                       "Layer to compare, or direct_single = emission + surfaces_direct + "
+                       "single_scattering; the picture itself if not given");
+    command.add_option("--difference", options->difference,
+                       "Write the signed difference here (.png): red is too bright, blue too dark");
+    command.add_option(
+        "--difference-range", options->difference_range,
+        "Difference in full colour, in the layer's unit; else what 99.5 % stay below");
+    const std::string limit = "Exit with 1 if the error is larger, as a fraction";
+    command.add_option("--max-rmse", options->max_rmse, limit);
+    command.add_option("--max-bias", options->max_bias, limit);
+    command.add_option("--max-block4", options->max_block4, limit);
+    command.add_option("--max-block16", options->max_block16, limit);
+}
+
+}  // namespace tyndall::cli

@@ -1,0 +1,187 @@
+#include "cli/scene_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <glm/geometric.hpp>
+#include <iterator>
+#include <numbers>
+#include <sstream>
+
+#include "cli/overrides.h"
+#include "cli/scene_keys.h"
+#include "cli/scene_optics.h"
+#include "cli/scene_surfaces.h"
+#include "cli/settings.h"
+#include "cli/suggestion.h"
+#include "mesh/input_error.h"
+
+namespace tyndall::cli {
+namespace {
+
+std::string read_text(const std::filesystem::path& path) {
+    const std::string name = path.string();
+    std::error_code error;
+    const auto status = std::filesystem::status(path, error);
+    if (status.type() == std::filesystem::file_type::not_found) {
+        fail_at(name, "there is no such file. Correct the path of the scene.");
+    }
+    if (std::filesystem::is_directory(status)) {
+        fail_at(name, "this is a directory. Give a scene file in it.");
+    }
+    std::ifstream stream(path, std::ios::binary);
+    std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+    if (!stream.is_open() || stream.bad()) fail_at(name, "cannot be read. Check its permissions.");
+    return text;
+}
+
+toml::table parse(const std::filesystem::path& path) {
+    const std::string text = read_text(path);
+    try {
+        return toml::parse(text, path.string());
+    } catch (const toml::parse_error& error) {
+        fail_at(place_of(error.source()),
+                fmt::format("this is not valid TOML: {}. Correct it.", error.description()));
+    }
+}
+
+void check_format(const TableReader& root) {
+    if (!root.has("format")) {
+        fail_at(root.where(), "the scene has no format. Begin the file with format = 1.");
+    }
+    const double format = root.number("format", {-1e9, 1e9});
+    if (format != 1.0) {
+        root.fail("format", fmt::format("format {} of the scene is not known. This program reads "
+                                        "format = 1.",
+                                        format));
+    }
+}
+
+void read_field_of_view(const TableReader& reader, render::Camera& camera) {
+    constexpr Range range{0.0, 180.0, true, true};
+    constexpr std::array<std::string_view, 2> angles{"fov_x", "fov_y"};
+    const std::string_view which = reader.exactly_one(angles);
+    const double radians = reader.number(which, range) * std::numbers::pi / 180.0;
+    (which == "fov_x" ? camera.fov_x : camera.fov_y) = radians;
+}
+
+render::Camera read_camera(const TableReader& reader, const std::string& name) {
+    render::Camera camera;
+    camera.name = name;
+    camera.eye = reader.vector("eye", coordinate);
+    camera.target = reader.vector("target", coordinate);
+    const glm::dvec3 view = camera.target - camera.eye;
+    if (!(glm::length(view) > 0.0)) {
+        reader.fail("target",
+                    fmt::format("target of {} is its eye. Move one of them.", reader.thing()));
+    }
+    if (reader.has("up")) camera.up = read_direction(reader, "up");
+    if (!(glm::length(glm::cross(glm::normalize(view), camera.up)) > 1e-9)) {
+        reader.fail("up",
+                    fmt::format("up of {} is parallel to its view. Give another up, such as {}.",
+                                reader.thing(),
+                                std::abs(view.y) < std::abs(view.z) ? "[0, 1, 0]" : "[0, 0, 1]"));
+    }
+    read_field_of_view(reader, camera);
+    constexpr std::size_t longest = 65536, most = std::size_t(1) << 28;
+    if (reader.has("width")) camera.width = reader.count("width", 1, longest);
+    if (reader.has("height")) camera.height = reader.count("height", 1, longest);
+    if (camera.width * camera.height > most) {
+        reader.fail("width",
+                    fmt::format("{} has {} × {} pixels, more than {}. Make the picture smaller.",
+                                reader.thing(), camera.width, camera.height, most));
+    }
+    return camera;
+}
+
+void read_cameras(const TableReader& root, Names& names, SceneFile& file) {
+    for (const toml::table* table : root.tables("camera")) {
+        const std::string name = names.take(*table);
+        const TableReader reader(*table, keys::camera(), fmt::format("camera \"{}\"", name));
+        file.cameras.push_back(read_camera(reader, name));
+        file.scene.viewpoints.push_back(file.cameras.back().eye);
+    }
+}
+
+// solve.camera: a camera's name, "" for none; the first camera where it is not given.
+std::string view_camera(const TableReader& root, const std::optional<std::string>& given,
+                        const Names& names) {
+    if (!given) return names.all().empty() ? "" : names.all().front();
+    if (!given->empty()) names.find(root.table("solve", solve_keys(), "[solve]"), "camera");
+    return *given;
+}
+
+bool emits_light(const radiosity::Scene& scene) {
+    const auto some = [](const radiosity::Spectrum& values) {
+        return std::any_of(values.begin(), values.end(), [](double v) { return v > 0.0; });
+    };
+    if (!scene.lights.empty() || some(scene.environment)) return true;
+    for (const auto& material : scene.materials) {
+        if (some(material.emission) || some(material.power)) return true;
+    }
+    for (const auto& medium : scene.media) {
+        if (some(medium.emission) || some(medium.heat)) return true;
+    }
+    return false;
+}
+
+std::string print(const toml::table& root) {
+    std::ostringstream stream;
+    stream << toml::toml_formatter(root) << "\n";
+    return stream.str();
+}
+
+}  // namespace
+
+SceneFile read_scene_file(const std::filesystem::path& path,
+                          const std::vector<std::string>& overrides) {
+    toml::table table = parse(path);
+    for (const std::string& override : overrides) apply_override(table, override);
+
+    const TableReader root(table, keys::root(), "the scene");
+    check_format(root);
+    SceneFile file;
+    if (root.has("title")) file.scene.title = root.text("title");
+    if (root.has("bands")) file.scene.bands = root.count("bands", 1, 64);
+
+    Names materials("material"), cameras("camera");
+    read_materials(root, materials, file.scene);
+    read_surfaces(root, path.parent_path(), materials, file.scene, file.notes);
+    read_media(root, file.scene);
+    read_lights(root, file.scene);
+    read_environment(root, file.scene);
+    read_cameras(root, cameras, file);
+
+    const Settings settings = read_settings(root);
+    file.solve = settings.solve;
+    file.render = settings.render;
+    file.tone_map = settings.tone_map;
+    file.view_camera = view_camera(root, settings.camera, cameras);
+    if (!emits_light(file.scene))
+        file.notes.push_back("nothing gives light: the picture will be black");
+    file.effective_toml = print(table);
+    return file;
+}
+
+std::string scene_file_reference() {
+    std::string text;
+    for (const KeyTable* table :
+         {&keys::root(), &keys::material(), &keys::surface(), &keys::cuboid(), &keys::rectangle(),
+          &keys::face_opening(), &keys::opening(), &keys::rotate(), &keys::medium(), &keys::phase(),
+          &keys::light(), &keys::sun(), &keys::point(), &keys::spot(), &keys::environment(),
+          &keys::camera(), &solve_keys(), &render_keys()}) {
+        text += fmt::format("### {}\n\n| key | value | default | meaning |\n|---|---|---|---|\n",
+                            table->title);
+        for (const Key& key : table->keys) {
+            text += fmt::format("| `{}` | {} | {} | {} |\n", key.name, key.type, key.fallback,
+                                key.meaning);
+        }
+        text += "\n";
+    }
+    return text;
+}
+
+}  // namespace tyndall::cli

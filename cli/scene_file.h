@@ -1,0 +1,36 @@
+// Scene files: TOML in, a scene, its cameras and the settings out.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "radiosity/options.h"
+#include "radiosity/scene.h"
+#include "render/camera.h"
+#include "render/options.h"
+
+namespace tyndall::cli {
+
+struct SceneFile {
+    radiosity::Scene scene;
+    std::vector<render::Camera> cameras;
+    radiosity::SolveOptions solve;
+    std::string view_camera;  // whose picture matters: solve.camera, else the first; "" for none
+    render::RenderOptions render;
+    render::ToneMapOptions tone_map;
+    std::vector<std::string> notes;  // what was mended: "part.obj: welded 12 of 48 vertices"
+    std::string effective_toml;      // the scene as TOML with the overrides applied
+};
+
+// Reads a scene file, with `overrides` ("material.plaster.reflectance=0.3") applied before.
+// Throws mesh::InputError: "file:line:column: what is wrong (the value), in which named thing. What
+// to do."; for an overridden value the place is "--set key=value".
+// What needs the mesh to be seen (a medium's point in a wall, say) make_enclosure finds out.
+SceneFile read_scene_file(const std::filesystem::path& path,
+                          const std::vector<std::string>& overrides = {});
+
+// Every key a scene file may hold, as Markdown tables: the reference in the documentation.
+std::string scene_file_reference();
+
+}  // namespace tyndall::cli

@@ -1,0 +1,215 @@
+#include "cli/scene_keys.h"
+
+namespace tyndall::cli::keys {
+
+const KeyTable& root() {
+    static const KeyTable table{
+        "top level",
+        {
+            {"format", "1", "required", "version of the file format"},
+            {"title", "string", "\"\"", "shown in reports"},
+            {"bands", "whole number, 1 to 64", "1",
+             "values a spectrum has: 1 grey, 3 red, green, blue"},
+            {"material", "array of tables", "", "what surfaces are made of"},
+            {"surface", "array of tables", "required", "geometry"},
+            {"medium", "array of tables", "", "fog, smoke, haze"},
+            {"light", "array of tables", "", "sun, point and spot lights"},
+            {"environment", "table", "", "what comes in from outside"},
+            {"camera", "array of tables", "", "pinhole cameras"},
+            {"solve", "table", "", "how the light is computed"},
+            {"render", "table", "", "how the picture is made"},
+        }};
+    return table;
+}
+
+const KeyTable& material() {
+    static const KeyTable table{
+        "[[material]]",
+        {
+            {"name", "string", "required", "how surfaces speak of it"},
+            {"reflectance", "number from 0 to 1, or one a band", "required", "Lambertian"},
+            {"emission", "number [W/m²/sr], or one a band", "", "radiance"},
+            {"exitance", "number [W/m²], or one a band", "", "π × radiance"},
+            {"power", "number [W], or one a band", "", "of the whole surface"},
+            {"temperature", "number [K]", "", "emits (1−ρ)σT⁴/π; one band only"},
+            {"emits", "\"front\" or \"both\"", "\"front\"; \"both\" with temperature",
+             "which sides emit"},
+            {"back", "name of a material", "the same", "what the back side is made of"},
+        }};
+    return table;
+}
+
+const KeyTable& surface() {
+    static const KeyTable table{
+        "[[surface]]",
+        {
+            {"name", "string", "required", "its faces are named name.face"},
+            {"material", "name of a material", "none: an interface, light passes", ""},
+            {"room", "table", "", "six faces that look inward: floor, ceiling, x0, x1, y0, y1"},
+            {"box", "table", "", "six faces that look outward: bottom, top, x0, x1, y0, y1"},
+            {"rectangle", "table", "", "corner, u, v; front = u × v"},
+            {"polygons", "array of polygons [[x, y, z], …] [m]", "",
+             "planar, any count of corners, front by the right-hand rule"},
+            {"file", "path", "",
+             "OBJ, PLY, STL or OFF, relative to the scene file; OBJ groups are faces"},
+            {"scale", "number or [x, y, z]", "1", "applied first"},
+            {"rotate", "table", "none", "applied second, about the origin"},
+            {"translate", "[x, y, z] [m]", "[0, 0, 0]", "applied last"},
+        }};
+    return table;
+}
+
+const KeyTable& cuboid() {
+    static const KeyTable table{
+        "room, box",
+        {
+            {"min", "[x, y, z] [m]", "required", "lowest corner"},
+            {"max", "[x, y, z] [m]", "required", "highest corner"},
+            {"openings", "array of tables", "", "holes that light passes, named surface.opening"},
+        }};
+    return table;
+}
+
+const KeyTable& rectangle() {
+    static const KeyTable table{
+        "rectangle",
+        {
+            {"corner", "[x, y, z] [m]", "required", ""},
+            {"u", "[x, y, z] [m]", "required", "first side"},
+            {"v", "[x, y, z] [m]", "required", "second side, perpendicular to u"},
+            {"openings", "array of tables", "", "holes that light passes, named surface.opening"},
+        }};
+    return table;
+}
+
+const KeyTable& opening() {
+    static const KeyTable table{
+        "openings of a rectangle",
+        {
+            {"name", "string", "required", ""},
+            {"corner", "[s, t] [m]", "required", "along u and v from the corner"},
+            {"size", "[ds, dt] [m]", "required", "along u and v"},
+        }};
+    return table;
+}
+
+const KeyTable& face_opening() {
+    static const KeyTable table{"openings of a room or box",
+                                {
+                                    {"name", "string", "required", ""},
+                                    {"face", "name of a face", "required",
+                                     "floor, ceiling (bottom, top of a box), x0, x1, y0, y1"},
+                                    {"corner", "[s, t] [m]", "required",
+                                     "from the face's lowest corner along (y, z) of x0 and x1, (x, "
+                                     "z) of y0 and y1, (x, y) of the others"},
+                                    {"size", "[ds, dt] [m]", "required", "along the same axes"},
+                                }};
+    return table;
+}
+
+const KeyTable& rotate() {
+    static const KeyTable table{"rotate",
+                                {
+                                    {"axis", "[x, y, z]", "required", "any length but 0"},
+                                    {"degrees", "number", "required", "right-hand rule"},
+                                }};
+    return table;
+}
+
+const KeyTable& medium() {
+    static const KeyTable table{
+        "[[medium]]",
+        {
+            {"name", "string", "required", ""},
+            {"extinction", "number [1/m], or one a band", "required", "absorption + scattering"},
+            {"albedo", "number from 0 to 1, or one a band", "0", "scattering / extinction"},
+            {"phase", "table", "isotropic", ""},
+            {"emission", "number [W/m²/sr], or one a band", "", "J_e"},
+            {"temperature", "number [K]", "", "J_e = σT⁴/π; one band only"},
+            {"heat", "number [W/m³], or one a band", "",
+             "a source instead; 0 is radiative equilibrium"},
+            {"fills", "\"everywhere\"", "\"everywhere\" without at",
+             "every region that is not solid"},
+            {"at", "[x, y, z] [m]", "", "instead of fills: the region around this point"},
+        }};
+    return table;
+}
+
+const KeyTable& phase() {
+    static const KeyTable table{
+        "phase",
+        {{"henyey_greenstein", "number above -1 and below 1", "required", "mean cosine g"}}};
+    return table;
+}
+
+const KeyTable& light() {
+    static const KeyTable table{"[[light]]",
+                                {
+                                    {"name", "string", "required", ""},
+                                    {"sun", "table", "", "a parallel beam, or a disc at infinity"},
+                                    {"point", "table", "", ""},
+                                    {"spot", "table", "", "a cone"},
+                                }};
+    return table;
+}
+
+const KeyTable& sun() {
+    static const KeyTable table{
+        "sun",
+        {
+            {"direction", "[x, y, z]", "required", "in which the light travels, any length but 0"},
+            {"irradiance", "number [W/m²], or one a band", "required", "across the beam"},
+            {"angle", "number from 0 to 90 [degrees]", "0", "angular diameter"},
+        }};
+    return table;
+}
+
+const KeyTable& point() {
+    static const KeyTable table{"point",
+                                {
+                                    {"position", "[x, y, z] [m]", "required", ""},
+                                    {"intensity", "number [W/sr], or one a band", "required", ""},
+                                }};
+    return table;
+}
+
+const KeyTable& spot() {
+    static const KeyTable table{
+        "spot",
+        {
+            {"position", "[x, y, z] [m]", "required", ""},
+            {"direction", "[x, y, z]", "", "axis of the cone; or target"},
+            {"target", "[x, y, z] [m]", "", "a point on the axis; or direction"},
+            {"intensity", "number [W/sr], or one a band", "required", "inside the cone"},
+            {"angle", "number above 0, up to 180 [degrees]", "required", "full opening angle"},
+            {"soft_edge", "number from 0 to 90 [degrees]", "0",
+             "outside the cone, over which light fades"},
+        }};
+    return table;
+}
+
+const KeyTable& environment() {
+    static const KeyTable table{
+        "[environment]",
+        {{"radiance", "number [W/m²/sr], or one a band", "0", "from all directions"}}};
+    return table;
+}
+
+const KeyTable& camera() {
+    static const KeyTable table{
+        "[[camera]]",
+        {
+            {"name", "string", "required", ""},
+            {"eye", "[x, y, z] [m]", "required", ""},
+            {"target", "[x, y, z] [m]", "required", "shown in the picture's centre"},
+            {"up", "[x, y, z]", "[0, 0, 1]", "not along the view"},
+            {"fov_x", "number above 0 and below 180 [degrees]", "", "whole angle across; or fov_y"},
+            {"fov_y", "number above 0 and below 180 [degrees]", "",
+             "whole angle upright; or fov_x"},
+            {"width", "whole number, 1 to 65536 [pixel]", "640", ""},
+            {"height", "whole number, 1 to 65536 [pixel]", "480", ""},
+        }};
+    return table;
+}
+
+}  // namespace tyndall::cli::keys

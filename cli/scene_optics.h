@@ -1,0 +1,22 @@
+// Materials, media, lights and the environment of a scene file.
+#pragma once
+
+#include "cli/names.h"
+#include "cli/toml_reader.h"
+#include "radiosity/scene.h"
+
+namespace tyndall::cli {
+
+// Each reads its part of the root table into the scene, whose `bands` is set. Units are converted
+// to those of radiosity/scene.h: exitance / π, temperature to (1−ρ)σT⁴/π (materials) or σT⁴/π
+// (media), degrees to radians; directions to unit length. All throw mesh::InputError with place and
+// name.
+void read_materials(const TableReader& root, Names& names, radiosity::Scene& scene);
+void read_media(const TableReader& root, radiosity::Scene& scene);
+void read_lights(const TableReader& root, radiosity::Scene& scene);
+void read_environment(const TableReader& root, radiosity::Scene& scene);
+
+// A unit vector from any length but 0.
+glm::dvec3 read_direction(const TableReader& reader, std::string_view key);
+
+}  // namespace tyndall::cli

@@ -1,0 +1,146 @@
+#include "cli/settings.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace tyndall::cli {
+namespace {
+
+constexpr std::array<std::string_view, 1> exchange_names{"walked"};
+constexpr std::array<std::string_view, 1> solver_names{"gmres"};
+constexpr std::array<std::string_view, 3> refinement_names{"none", "uniform", "adaptive"};
+constexpr std::array<std::string_view, 2> direct_light_names{"closed_form", "rows"};
+constexpr std::array<std::string_view, 1> render_method_names{"line_of_sight"};
+
+std::size_t memory(const TableReader& table, std::string_view key) {
+    constexpr Range range{1e6, 1e15};
+    const toml::node& node = table.node(key);
+    if (!node.is_string()) return static_cast<std::size_t>(table.number(key, range));
+    const std::string text = table.text(key);
+    const auto bytes = bytes_of(text);
+    if (!bytes || !range.holds(*bytes)) {
+        table.fail(
+            key, fmt::format("{} \"{}\" of {} is not a size from 1 MB to 1000 TB. Give bytes as a "
+                             "number, or a string such as \"2 GB\" or \"512 MiB\".",
+                             key, text, table.thing()));
+    }
+    return static_cast<std::size_t>(*bytes);
+}
+
+// A key and what to do with it: a new setting is one line.
+struct Setting {
+    Key key;
+    void (*read)(const TableReader&, std::string_view, Settings&);
+};
+
+using T = const TableReader&;
+using K = std::string_view;
+
+// clang-format off
+constexpr Setting solve_settings[] = {
+    {{"error", "number above 0 and below 1", "0.01", "goal: estimated relative error of the picture, or of the solution where there is no camera"},
+     [](T t, K k, Settings& s) { s.solve.error = t.number(k, {0.0, 1.0, true, true}); }},
+    {{"camera", "name of a camera", "the first camera", "the camera whose picture matters; \"\" for a solution good everywhere"},
+     [](T t, K k, Settings& s) { s.camera = t.text(k); }},
+    {{"refinement", "\"none\", \"uniform\" or \"adaptive\"", "\"adaptive\"", "the initial mesh; all down to element_size; where it is needed"},
+     [](T t, K k, Settings& s) { s.solve.refinement = static_cast<radiosity::Refinement>(t.choice(k, refinement_names)); }},
+    {{"direct_light", "\"closed_form\" or \"rows\"", "\"closed_form\"", "light straight from emitting surfaces: integrated over their visible part, or through the exchange areas"},
+     [](T t, K k, Settings& s) { s.solve.direct_light = static_cast<radiosity::DirectLightMode>(t.choice(k, direct_light_names)); }},
+    {{"element_size", "number [m]", "0", "longest edge of the initial elements; 0: chosen from the scene"},
+     [](T t, K k, Settings& s) { s.solve.element_size = t.number(k, {0.0, 1e9}); }},
+    {{"max_elements", "whole number", "300000", "patches and zones together"},
+     [](T t, K k, Settings& s) { s.solve.max_elements = t.count(k, 1, 4'000'000'000); }},
+    {{"max_memory", "number [byte], or \"2 GB\"", "2 GiB", "stops refining before"},
+     [](T t, K k, Settings& s) { s.solve.max_memory = memory(t, k); }},
+    {{"max_time", "number [s]", "0", "wall time; 0: no limit"},
+     [](T t, K k, Settings& s) { s.solve.max_time = t.number(k, {0.0, 1e9}); }},
+    {{"max_passes", "whole number", "12", "passes of refinement"},
+     [](T t, K k, Settings& s) { s.solve.max_passes = t.count(k, 0, 1000); }},
+    {{"rays", "whole number", "256", "walked from each element for its row of exchange areas"},
+     [](T t, K k, Settings& s) { s.solve.rays = t.count(k, 1, 1'000'000); }},
+    {{"gather_rays", "whole number", "512", "walked from each point of the last, fine gather"},
+     [](T t, K k, Settings& s) { s.solve.gather_rays = t.count(k, 1, 1'000'000); }},
+    {{"exchange", "name of a method", "\"walked\"", "how exchange areas are computed"},
+     [](T t, K k, Settings& s) { s.solve.exchange = exchange_names[t.choice(k, exchange_names)]; }},
+    {{"solver", "name of a method", "\"gmres\"", "how the linear system is solved"},
+     [](T t, K k, Settings& s) { s.solve.solver = solver_names[t.choice(k, solver_names)]; }},
+    {{"solver_tolerance", "number above 0 and below 1", "1e-6", "relative residual"},
+     [](T t, K k, Settings& s) { s.solve.solver_tolerance = t.number(k, {0.0, 1.0, true, true}); }},
+    {{"solver_iterations", "whole number", "200", "at most"},
+     [](T t, K k, Settings& s) { s.solve.solver_iterations = t.count(k, 1, 1'000'000); }},
+    {{"seed", "whole number", "1", "of all random numbers"},
+     [](T t, K k, Settings& s) { s.solve.seed = t.count(k, 0, 1ull << 53); }},
+};
+
+constexpr Setting render_settings[] = {
+    {{"method", "name of a method", "\"line_of_sight\"", "how the picture is made from the solution"},
+     [](T t, K k, Settings& s) { s.render.method = render_method_names[t.choice(k, render_method_names)]; }},
+    {{"samples", "whole number", "16", "rays a pixel"},
+     [](T t, K k, Settings& s) { s.render.samples = t.count(k, 1, 65536); }},
+    {{"exposure", "number [stops]", "0", "added to the automatic exposure of the PNG"},
+     [](T t, K k, Settings& s) { s.tone_map.exposure = t.number(k, {-100.0, 100.0}); }},
+    {{"white", "number [W/m²/sr]", "automatic", "radiance shown as white in the PNG"},
+     [](T t, K k, Settings& s) { s.tone_map.white = t.number(k, positive); }},
+};
+// clang-format on
+
+template <std::size_t size>
+KeyTable table_of(std::string_view title, const Setting (&settings)[size]) {
+    KeyTable table{title, {}};
+    for (const Setting& setting : settings) table.keys.push_back(setting.key);
+    return table;
+}
+
+template <std::size_t size>
+void read(const TableReader& root, std::string_view name, const KeyTable& keys,
+          const Setting (&settings)[size], Settings& result) {
+    if (!root.has(name)) return;
+    const TableReader table = root.table(name, keys, std::string(keys.title));
+    for (const Setting& setting : settings) {
+        if (table.has(setting.key.name)) setting.read(table, setting.key.name, result);
+    }
+}
+
+}  // namespace
+
+const KeyTable& solve_keys() {
+    static const KeyTable table = table_of("[solve]", solve_settings);
+    return table;
+}
+
+const KeyTable& render_keys() {
+    static const KeyTable table = table_of("[render]", render_settings);
+    return table;
+}
+
+Settings read_settings(const TableReader& root) {
+    Settings settings;
+    read(root, "solve", solve_keys(), solve_settings, settings);
+    read(root, "render", render_keys(), render_settings, settings);
+    settings.render.seed = settings.solve.seed;
+    return settings;
+}
+
+std::optional<double> bytes_of(std::string_view text) {
+    double value = 0.0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || !std::isfinite(value)) return std::nullopt;
+    std::string_view unit = text.substr(static_cast<std::size_t>(end - text.data()));
+    while (!unit.empty() && unit.front() == ' ') unit.remove_prefix(1);
+    struct Unit {
+        std::string_view name;
+        double bytes;
+    };
+    constexpr Unit units[]{{"", 1.0},       {"B", 1.0},      {"kB", 1e3},    {"KB", 1e3},
+                           {"MB", 1e6},     {"GB", 1e9},     {"TB", 1e12},   {"KiB", 0x1p10},
+                           {"MiB", 0x1p20}, {"GiB", 0x1p30}, {"TiB", 0x1p40}};
+    for (const Unit& known : units) {
+        if (unit == known.name) return value * known.bytes;
+    }
+    return std::nullopt;
+}
+
+}  // namespace tyndall::cli

@@ -1,0 +1,98 @@
+#include "radiosity/coarse_solution.h"
+
+#include <algorithm>
+
+#include "radiosity/exchange_walked.h"
+
+namespace tyndall::radiosity {
+namespace {
+
+bool same_extinction(const Enclosure& enclosure, std::size_t a, std::size_t b) {
+    return std::all_of(enclosure.media.begin(), enclosure.media.end(),
+                       [&](const MediumOptics& m) { return m.extinction[a] == m.extinction[b]; });
+}
+
+}  // namespace
+
+CoarseSolution::CoarseSolution(const Enclosure& enclosure, const Forest& forest,
+                               const SolveOptions& options, const ProgressCallback& progress)
+    : enclosure_(enclosure), options_(options), elements_(elements_of_leaves(enclosure, forest)) {
+    for (std::size_t band = 0; band < enclosure.bands; ++band) {
+        std::size_t same = 0;
+        while (same < band && !same_extinction(enclosure, same, band)) ++same;
+        if (same < band) {
+            matrix_.push_back(matrix_[same]);
+            continue;
+        }
+        matrix_.push_back(areas_.size());
+        areas_.push_back(all_rows(
+            exchange_walked, {enclosure, forest, elements_},
+            {.band = band, .rays = options.rays, .seed = options.seed, .progress = progress}));
+        rays_ += elements_.size() * options.rays;
+    }
+}
+
+std::size_t CoarseSolution::memory() const {
+    std::size_t bytes = elements_.capacity.size() * 3 * sizeof(double);
+    for (const auto& areas : areas_) bytes += areas.memory();
+    return bytes;
+}
+
+double CoarseSolution::split_emission(std::size_t element, std::size_t band) const {
+    const bool split =
+        elements_.is_patch(element) && options_.direct_light == DirectLightMode::closed_form;
+    return split ? elements_.emission[element * elements_.bands + band] : 0.0;
+}
+
+void CoarseSolution::solve(const std::vector<double>& incident_direct) {
+    const std::size_t bands = elements_.bands, n = elements_.size();
+    indirect_.assign(n * bands, 0.0);
+    reflected_.assign(n * bands, 0.0);
+    report_ = {"gmres", 0, 0.0, true};
+    std::vector<double> source(n);
+    for (std::size_t b = 0; b < bands; ++b) {
+        const ExchangeAreas& rows = areas(b);
+        std::vector<double> from_outside(n, 0.0);
+        for (std::size_t i = 0; i < n; ++i) {
+            const double capacity = elements_.capacity[i * bands + b];
+            // Outside is the last column of a row, if it is there at all.
+            const std::size_t last = rows.starts[i + 1];
+            if (capacity > 0.0 && last > rows.starts[i] &&
+                rows.columns[last - 1] == elements_.outside())
+                from_outside[i] = rows.values[last - 1] / capacity * enclosure_.environment[b];
+            source[i] = elements_.emission[i * bands + b] - split_emission(i, b) +
+                        elements_.scatter[i * bands + b] *
+                            (incident_direct[i * bands + b] + from_outside[i]);
+        }
+        const LinearProblem problem{elements_, rows, b, source};
+        const SolverResult result =
+            solve_gmres(problem, {options_.solver_tolerance, options_.solver_iterations});
+        report_.iterations = std::max(report_.iterations, result.iterations);
+        report_.residual = std::max(report_.residual, result.residual);
+        report_.converged = report_.converged && result.converged;
+        for (std::size_t i = 0; i < n; ++i) {
+            const double capacity = elements_.capacity[i * bands + b];
+            double sum = 0.0;
+            for (std::size_t k = rows.starts[i]; k < rows.starts[i + 1]; ++k)
+                if (const auto j = rows.columns[k]; j != elements_.outside())
+                    sum += rows.values[k] * result.radiance[j];
+            indirect_[i * bands + b] = capacity > 0.0 ? sum / capacity + from_outside[i] : 0.0;
+            reflected_[i * bands + b] = result.radiance[i];
+        }
+    }
+}
+
+ElementValues CoarseSolution::values(const std::vector<double>& incident_direct) const {
+    ElementValues values;
+    values.elements = elements_;
+    values.incident_direct = incident_direct;
+    for (std::size_t i = 0; i < elements_.size(); ++i)
+        for (std::size_t b = 0; b < elements_.bands; ++b) {
+            const std::size_t k = i * elements_.bands + b;
+            values.radiance.push_back(reflected_[k] + split_emission(i, b));
+            values.incident.push_back(incident_direct[k] + indirect_[k]);
+        }
+    return values;
+}
+
+}  // namespace tyndall::radiosity

@@ -1,0 +1,50 @@
+// The coarse solution: rows of exchange areas kept, solved again whenever direct light is known
+// better.
+#pragma once
+
+#include "radiosity/options.h"
+#include "radiosity/solution.h"
+#include "radiosity/solver.h"
+
+namespace tyndall::radiosity {
+
+class CoarseSolution {
+  public:
+    // The elements are the forest's leaves now; rows are made here, once a distinct extinction.
+    CoarseSolution(const Enclosure& enclosure, const Forest& forest, const SolveOptions& options,
+                   const ProgressCallback& progress);
+
+    const Elements& elements() const { return elements_; }
+    const ExchangeAreas& areas(std::size_t band) const { return areas_[matrix_[band]]; }
+    std::size_t rays() const { return rays_; }
+    std::size_t memory() const;
+
+    // Solves for r given H^A of every element ([element * bands + band]):
+    //   r = e^R + a (H^A + S r / c).  e^R leaves out what direct light counts in closed form.
+    void solve(const std::vector<double>& incident_direct);
+
+    const SolverReport& report() const { return report_; }
+    // S r / c with outside: the indirect part of H, and r itself [W/m^2/sr].
+    double indirect(std::size_t element, std::size_t band) const {
+        return indirect_[element * elements_.bands + band];
+    }
+    double reflected(std::size_t element, std::size_t band) const {
+        return reflected_[element * elements_.bands + band];
+    }
+    // e^A: emission counted in closed form; 0 else.
+    double split_emission(std::size_t element, std::size_t band) const;
+
+    ElementValues values(const std::vector<double>& incident_direct) const;
+
+  private:
+    const Enclosure& enclosure_;
+    SolveOptions options_;
+    Elements elements_;
+    std::vector<ExchangeAreas> areas_;
+    std::vector<std::size_t> matrix_;  // which of areas_ a band uses
+    std::vector<double> indirect_, reflected_;
+    SolverReport report_;
+    std::size_t rays_ = 0;
+};
+
+}  // namespace tyndall::radiosity

@@ -1,0 +1,336 @@
+#include "radiosity/direct_light.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <optional>
+
+#include "mesh/visible_polygon.h"
+#include "radiosity/closed_forms.h"
+#include "radiosity/light_sources.h"
+#include "radiosity/mean_transmittance.h"
+#include "radiosity/occlusion.h"
+#include "radiosity/sampled_visibility.h"
+
+namespace tyndall::radiosity {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+// Of the mesh's diagonal: above what rounding does to points computed on a plane.
+constexpr double plane_tolerance = 1e-10;
+constexpr double merge_tolerance = 1e-11;
+// Occluders × points beyond which none is tested for being an outer wall.
+constexpr double most_wall_tests = 2e8;
+
+// A convex polygon of constant radiance, at its place or (the sun) at infinity.
+struct AreaLight {
+    std::vector<Point> corners;  // counter-clockwise seen from where it shines to
+    Direction normal{0};         // to where it shines
+    mesh::Reach reach = mesh::Reach::finite;
+    Spectrum radiance;  // [W/m^2/sr]
+};
+
+struct Scratch {
+    mesh::VisibleScratch visible;
+    std::vector<Point> relative, above;
+    std::vector<double> mean;
+};
+
+double diagonal(const mesh::BaseMesh& mesh) {
+    return glm::distance(mesh.hull_min, mesh.hull_max);
+}
+
+std::vector<mesh::ConvexPolygon> opaque_polygons(const Enclosure& enclosure) {
+    std::vector<std::array<mesh::VertexId, 3>> triangles;
+    for (const auto& facet : enclosure.mesh.facets) {
+        const auto active = [&](TetId tet) { return tet.valid() && !enclosure.solid(tet); };
+        if (facet.opacity == mesh::Opacity::opaque &&
+            (active(facet.tets[0]) || active(facet.tets[1])))
+            triangles.push_back(facet.corners);
+    }
+    return mesh::convex_merge(enclosure.mesh.points, triangles, mesh::Facing::ignored,
+                              merge_tolerance * diagonal(enclosure.mesh));
+}
+
+// Drops walls with all that light can reach on one side of them: they come between no two points.
+std::vector<mesh::ConvexPolygon> inner_polygons(const Enclosure& enclosure,
+                                                const std::vector<mesh::ConvexPolygon>& all) {
+    std::vector<bool> reached(enclosure.mesh.points.size(), false);
+    for (std::size_t t = 0; t < enclosure.mesh.tets.size(); ++t)
+        if (!enclosure.solid(TetId(t)))
+            for (const auto corner : enclosure.mesh.tets[t]) reached[corner.value] = true;
+    std::vector<Point> points;
+    for (std::size_t k = 0; k < reached.size(); ++k)
+        if (reached[k]) points.push_back(enclosure.mesh.points[k]);
+    if (static_cast<double>(points.size()) * static_cast<double>(all.size()) > most_wall_tests)
+        return all;
+    const double tolerance = plane_tolerance * diagonal(enclosure.mesh);
+    std::vector<mesh::ConvexPolygon> inner;
+    for (const auto& polygon : all) {
+        bool front = false, back = false;
+        for (const Point& p : points) {
+            const double d = glm::dot(polygon.normal, p - polygon.corners[0]);
+            front |= d > tolerance;
+            back |= d < -tolerance;
+            if (front && back) break;
+        }
+        if (front && back) inner.push_back(polygon);
+    }
+    return inner;
+}
+
+bool shines(const Spectrum& spectrum) {
+    return std::any_of(spectrum.begin(), spectrum.end(), [](double v) { return v != 0.0; });
+}
+
+// Power [W] per irradiance across the beam that enters through the hull into where light can be
+// [m^2].
+double beam_area(const Enclosure& enclosure, Direction direction) {
+    const auto& mesh = enclosure.mesh;
+    double sum = 0.0;
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+        if (enclosure.solid(TetId(t))) continue;
+        for (int k = 0; k < 4; ++k) {
+            if (mesh.neighbours[t][k].valid()) continue;
+            std::array<Point, 4> p;
+            for (int c = 0; c < 4; ++c) p[c] = mesh.points[mesh.tets[t][c].value];
+            const Point &a = p[(k + 1) % 4], &b = p[(k + 2) % 4], &c = p[(k + 3) % 4];
+            Direction inward = 0.5 * glm::cross(b - a, c - a);
+            if (glm::dot(inward, p[k] - a) < 0.0) inward = -inward;
+            sum += std::max(0.0, glm::dot(inward, direction));
+        }
+    }
+    return sum;
+}
+
+Spectrum scaled(const Spectrum& spectrum, double factor) {
+    Spectrum result = spectrum;
+    for (double& v : result) v *= factor;
+    return result;
+}
+
+}  // namespace
+
+struct DirectLight::Data {
+    const Enclosure& enclosure;
+    DirectLightOptions options;
+    std::vector<AreaLight> areas;
+    std::vector<Sun> beams;  // without a diameter; directions are unit
+    std::vector<PointLight> points;
+    std::vector<SpotLight> spots;
+    std::vector<LightPower> powers;
+    mesh::Occluders inner;  // what can come between two points that light reaches
+    mesh::Occluders all;    // and between such a point and infinity
+    std::optional<Occlusion> occlusion;
+    OpticalDepth depth;
+    Hull hull;
+    double tolerance;  // [m]
+
+    Data(const Enclosure& enclosure, const DirectLightOptions& options)
+        : enclosure(enclosure),
+          options(options),
+          depth(enclosure, merge_tolerance * diagonal(enclosure.mesh)),
+          hull{enclosure.mesh.hull_min, enclosure.mesh.hull_max},
+          tolerance(plane_tolerance * diagonal(enclosure.mesh)) {
+        if (options.emitters) add_emitters();
+        for (const Light& light : enclosure.lights) add_light(light);
+        if (areas.empty() && beams.empty() && points.empty() && spots.empty()) return;
+        const auto polygons = opaque_polygons(enclosure);
+        all = mesh::Occluders(polygons, tolerance);
+        inner = mesh::Occluders(inner_polygons(enclosure, polygons), tolerance);
+        if (!areas.empty()) occlusion.emplace(enclosure.mesh);
+    }
+
+    void add_emitters();
+    void add_emitter(const SurfaceSide& side,
+                     const std::vector<std::array<mesh::VertexId, 3>>& triangles);
+    void add_light(const Light& light);
+
+    void gather(const Receiver& receiver, std::span<double> incident) const;
+    void from_area(const Receiver& receiver, const AreaLight& light, Scratch& scratch,
+                   std::span<double> incident) const;
+    void from_part(const Receiver& receiver, const AreaLight& light, std::span<const Point> part,
+                   Scratch& scratch, std::span<double> incident) const;
+    void from_samples(const Receiver& receiver, const AreaLight& light,
+                      std::span<const Point> corners, Scratch& scratch,
+                      std::span<double> incident) const;
+    void from_path(const Receiver& receiver, Direction path, mesh::Reach reach,
+                   const Spectrum& strength, double factor, std::span<double> incident) const;
+    double weight(const Receiver& receiver, std::span<const Point> corners) const;
+};
+
+void DirectLight::Data::add_emitters() {
+    std::vector<std::vector<std::array<mesh::VertexId, 3>>> triangles(enclosure.sides.size());
+    for (std::size_t f = 0; f < enclosure.facet_sides.size(); ++f)
+        for (int k = 0; k < 2; ++k) {
+            const auto side = enclosure.facet_sides[f][k];
+            const auto& facet = enclosure.mesh.facets[f];
+            if (side == none || !shines(enclosure.sides[side].emission)) continue;
+            if (!facet.tets[k].valid() || enclosure.solid(facet.tets[k])) continue;
+            auto corners = facet.corners;
+            if (k == 1) std::swap(corners[1], corners[2]);
+            triangles[side].push_back(corners);
+        }
+    for (std::size_t s = 0; s < triangles.size(); ++s)
+        if (!triangles[s].empty()) add_emitter(enclosure.sides[s], triangles[s]);
+}
+
+void DirectLight::Data::add_emitter(const SurfaceSide& side,
+                                    const std::vector<std::array<mesh::VertexId, 3>>& triangles) {
+    const auto& points = enclosure.mesh.points;
+    double area = 0.0;
+    for (const auto& t : triangles)
+        area += 0.5 * glm::length(glm::cross(points[t[1].value] - points[t[0].value],
+                                             points[t[2].value] - points[t[0].value]));
+    for (auto& polygon : mesh::convex_merge(points, triangles, mesh::Facing::kept,
+                                            merge_tolerance * diagonal(enclosure.mesh)))
+        areas.push_back(
+            {std::move(polygon.corners), polygon.normal, mesh::Reach::finite, side.emission});
+    powers.push_back({side.name, scaled(side.emission, pi * area)});
+}
+
+void DirectLight::Data::add_light(const Light& light) {
+    Spectrum power;
+    if (const auto* sun = std::get_if<Sun>(&light.source)) {
+        Sun beam = *sun;
+        beam.direction = glm::normalize(beam.direction);
+        power = scaled(beam.irradiance, beam_area(enclosure, beam.direction));
+        if (beam.angle > 0.0 && shines(beam.irradiance)) {
+            auto corners = sun_disc(beam);
+            const double across = projected_solid_angle(corners, -beam.direction);
+            areas.push_back({std::move(corners), beam.direction, mesh::Reach::infinite,
+                             scaled(beam.irradiance, 1.0 / across)});
+        } else if (shines(beam.irradiance)) {
+            beams.push_back(beam);
+        }
+    } else if (const auto* point = std::get_if<PointLight>(&light.source)) {
+        power = scaled(point->intensity, 4.0 * pi);
+        if (shines(point->intensity)) points.push_back(*point);
+    } else if (const auto* spot = std::get_if<SpotLight>(&light.source)) {
+        power = scaled(spot->intensity, spot_solid_angle(*spot));
+        if (shines(spot->intensity)) spots.push_back(*spot);
+    }
+    powers.push_back({light.name, std::move(power)});
+}
+
+// Closed form of (1) for τ = 1 and unit radiance [-].
+double DirectLight::Data::weight(const Receiver& receiver, std::span<const Point> corners) const {
+    return receiver.on_surface ? projected_solid_angle(corners, receiver.normal) / pi
+                               : solid_angle(corners) / (4.0 * pi);
+}
+
+void DirectLight::Data::from_part(const Receiver& receiver, const AreaLight& light,
+                                  std::span<const Point> part, Scratch& scratch,
+                                  std::span<double> incident) const {
+    const double share = weight(receiver, part);
+    if (share == 0.0) return;
+    mean_transmittance(depth, receiver, part,
+                       light.reach == mesh::Reach::infinite ? &hull : nullptr, options.optical_step,
+                       scratch.mean);
+    for (std::size_t band = 0; band < incident.size(); ++band)
+        incident[band] += light.radiance[band] * share * scratch.mean[band];  // (1)
+}
+
+void DirectLight::Data::from_samples(const Receiver& receiver, const AreaLight& light,
+                                     std::span<const Point> corners, Scratch& scratch,
+                                     std::span<double> incident) const {
+    sampled_transmittance(*occlusion, depth, receiver, corners,
+                          light.reach == mesh::Reach::infinite ? &hull : nullptr,
+                          options.shadow_rays, scratch.mean);
+    const double share = weight(receiver, corners);
+    for (std::size_t band = 0; band < incident.size(); ++band)
+        incident[band] += light.radiance[band] * share * scratch.mean[band];
+}
+
+void DirectLight::Data::from_area(const Receiver& receiver, const AreaLight& light,
+                                  Scratch& scratch, std::span<double> incident) const {
+    const bool finite = light.reach == mesh::Reach::finite;
+    auto& corners = scratch.relative;
+    corners.assign(light.corners.begin(), light.corners.end());
+    if (finite) {
+        for (Point& p : corners) p -= receiver.x;
+        if (glm::dot(light.normal, corners[0]) >= -tolerance) return;  // not in front of it
+    }
+    if (receiver.on_surface) {
+        scratch.above.clear();
+        mesh::clip(corners, receiver.normal, 0.0, scratch.above);
+        corners.swap(scratch.above);
+        if (corners.size() < 3) return;
+    }
+    const mesh::Target target{corners, light.reach, receiver.normal};
+    const mesh::VisibleLimits limits{options.exact_occluders};
+    switch ((finite ? inner : all).look(receiver.x, target, limits, scratch.visible)) {
+        case mesh::Visibility::none:
+            return;
+        case mesh::Visibility::too_many:
+            return from_samples(receiver, light, corners, scratch, incident);
+        case mesh::Visibility::all:
+        case mesh::Visibility::part:
+            for (std::size_t k = 0; k < scratch.visible.visible.size(); ++k)
+                from_part(receiver, light, scratch.visible.visible[k], scratch, incident);
+    }
+}
+
+// (2), (3): `factor` is all but strength, τ and visibility.
+void DirectLight::Data::from_path(const Receiver& receiver, Direction path, mesh::Reach reach,
+                                  const Spectrum& strength, double factor,
+                                  std::span<double> incident) const {
+    const double length = glm::length(path);
+    if (length == 0.0 || factor <= 0.0) return;
+    const double cosine = receiver.cosine(path / length);
+    if (cosine <= 0.0 || all.blocked(receiver.x, path, reach)) return;
+    thread_local std::vector<double> depths;
+    depths.assign(incident.size(), 0.0);
+    if (!depth.transparent()) {
+        if (reach == mesh::Reach::infinite) path *= hull.exit(receiver.x, path);
+        depth(receiver.x, receiver.tet, path, depths);
+    }
+    factor *= cosine / (receiver.on_surface ? pi : 4.0 * pi);
+    for (std::size_t band = 0; band < incident.size(); ++band)
+        incident[band] += strength[band] * factor * std::exp(-depths[band]);
+}
+
+void DirectLight::Data::gather(const Receiver& receiver, std::span<double> incident) const {
+    std::fill(incident.begin(), incident.end(), 0.0);
+    thread_local Scratch scratch;
+    scratch.mean.resize(incident.size());
+    for (const AreaLight& light : areas) from_area(receiver, light, scratch, incident);
+    for (const Sun& sun : beams)
+        from_path(receiver, -sun.direction, mesh::Reach::infinite, sun.irradiance, 1.0, incident);
+    for (const PointLight& light : points) {
+        const Direction path = light.position - receiver.x;
+        from_path(receiver, path, mesh::Reach::finite, light.intensity, 1.0 / glm::dot(path, path),
+                  incident);
+    }
+    for (const SpotLight& light : spots) {
+        const Direction path = light.position - receiver.x;
+        from_path(receiver, path, mesh::Reach::finite, light.intensity,
+                  spot_share(light, -path) / glm::dot(path, path), incident);
+    }
+}
+
+DirectLight::DirectLight(const Enclosure& enclosure, const DirectLightOptions& options)
+    : data_(std::make_unique<Data>(enclosure, options)) {}
+DirectLight::~DirectLight() = default;
+DirectLight::DirectLight(DirectLight&&) noexcept = default;
+DirectLight& DirectLight::operator=(DirectLight&&) noexcept = default;
+
+bool DirectLight::empty() const {
+    return data_->areas.empty() && data_->beams.empty() && data_->points.empty() &&
+           data_->spots.empty();
+}
+
+void DirectLight::at_zone(Point x, TetId tet, std::span<double> incident) const {
+    data_->gather({x, tet}, incident);
+}
+
+void DirectLight::at_patch(Point x, Direction n, TetId tet, std::span<double> incident) const {
+    data_->gather({x, tet, n, true}, incident);
+}
+
+const std::vector<LightPower>& DirectLight::powers() const {
+    return data_->powers;
+}
+
+}  // namespace tyndall::radiosity

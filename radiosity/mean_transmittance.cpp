@@ -1,0 +1,165 @@
+#include "radiosity/mean_transmittance.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+namespace tyndall::radiosity {
+namespace {
+
+constexpr std::size_t most_triangles = 1024;  // a polygon; then the rest is taken as it is
+constexpr double low_share = 0.1;             // of the step, up to which three points are enough
+constexpr double flat = 1e-3;  // variation too small for the weights' shape to matter
+
+struct Node {
+    double a, b, c, weight;  // barycentric
+};
+
+constexpr std::array<Node, 3> degree_2{{{2. / 3, 1. / 6, 1. / 6, 1. / 3},
+                                        {1. / 6, 2. / 3, 1. / 6, 1. / 3},
+                                        {1. / 6, 1. / 6, 2. / 3, 1. / 3}}};
+
+// Radon (1948).
+constexpr double p1 = 0.059715871789770, q1 = 0.470142064105115, w1 = 0.132394152788506;
+constexpr double p2 = 0.797426985353087, q2 = 0.101286507323456, w2 = 0.125939180544827;
+constexpr std::array<Node, 7> degree_5{{{1. / 3, 1. / 3, 1. / 3, 0.225},
+                                        {p1, q1, q1, w1},
+                                        {q1, p1, q1, w1},
+                                        {q1, q1, p1, w1},
+                                        {p2, q2, q2, w2},
+                                        {q2, p2, q2, w2},
+                                        {q2, q2, p2, w2}}};
+
+struct Triangle {
+    Point a, b, c;
+    double area;
+};
+
+struct Scratch {
+    std::vector<Triangle> open;
+    std::vector<double> depths;  // of a rule's nodes, bands within nodes
+    std::vector<double> sum;     // of weight × τ, each band
+};
+
+class Mean {
+  public:
+    Mean(const OpticalDepth& depth, const Receiver& receiver, const Hull* hull, std::size_t bands,
+         Scratch& scratch)
+        : depth_(depth), receiver_(receiver), hull_(hull), bands_(bands), scratch_(scratch) {
+        scratch_.sum.assign(bands, 0.0);
+        scratch_.depths.resize(degree_5.size() * bands);
+    }
+
+    // Evaluates a rule's nodes; returns the largest variation of the optical depth among them.
+    template <std::size_t n>
+    double look(const Triangle& t, const std::array<Node, n>& rule) {
+        for (std::size_t k = 0; k < n; ++k) {
+            const Point p = rule[k].a * t.a + rule[k].b * t.b + rule[k].c * t.c;
+            const double s = glm::length(p);
+            const Direction unit = p / s;
+            weights_[k] = rule[k].weight * t.area * receiver_.cosine(unit) / (s * s * s);
+            const Direction path = hull_ ? unit * hull_->exit(receiver_.x, unit) : p;
+            depth_(receiver_.x, receiver_.tet, path, {scratch_.depths.data() + k * bands_, bands_});
+        }
+        double widest = 0.0;
+        for (std::size_t band = 0; band < bands_; ++band) {
+            double low = std::numeric_limits<double>::infinity(), high = 0.0;
+            for (std::size_t k = 0; k < n; ++k) {
+                low = std::min(low, scratch_.depths[k * bands_ + band]);
+                high = std::max(high, scratch_.depths[k * bands_ + band]);
+            }
+            widest = std::max(widest, high - low);
+        }
+        return widest;
+    }
+
+    void deposit(std::size_t nodes) {
+        for (std::size_t k = 0; k < nodes; ++k) {
+            total_ += weights_[k];
+            for (std::size_t band = 0; band < bands_; ++band)
+                scratch_.sum[band] += weights_[k] * std::exp(-scratch_.depths[k * bands_ + band]);
+        }
+    }
+
+    double total() const { return total_; }
+
+  private:
+    const OpticalDepth& depth_;
+    const Receiver& receiver_;
+    const Hull* hull_;
+    std::size_t bands_;
+    Scratch& scratch_;
+    std::array<double, 7> weights_{};
+    double total_ = 0.0;
+};
+
+// Halves a triangle across its longest edge.
+std::array<Triangle, 2> bisect(const Triangle& t) {
+    const double ab = glm::distance(t.a, t.b), bc = glm::distance(t.b, t.c),
+                 ca = glm::distance(t.c, t.a);
+    Point a = t.a, b = t.b, c = t.c;  // turned so that a b is the longest
+    if (bc >= ab && bc >= ca)
+        a = t.b, b = t.c, c = t.a;
+    else if (ca >= ab && ca >= bc)
+        a = t.c, b = t.a, c = t.b;
+    const Point m = 0.5 * (a + b);
+    return {Triangle{a, m, c, 0.5 * t.area}, Triangle{m, b, c, 0.5 * t.area}};
+}
+
+// Square of (longest edge / distance of the centroid): how much the weights vary.
+double spread(const Triangle& t) {
+    const Point centre = (t.a + t.b + t.c) / 3.0;
+    const Point ab = t.b - t.a, bc = t.c - t.b, ca = t.a - t.c;
+    return std::max({glm::dot(ab, ab), glm::dot(bc, bc), glm::dot(ca, ca)}) /
+           glm::dot(centre, centre);
+}
+
+}  // namespace
+
+double Hull::exit(Point x, Direction unit) const {
+    double t = std::numeric_limits<double>::infinity();
+    for (int axis = 0; axis < 3; ++axis) {
+        if (unit[axis] == 0.0) continue;
+        t = std::min(t, ((unit[axis] > 0.0 ? high : low)[axis] - x[axis]) / unit[axis]);
+    }
+    return std::max(t, 0.0);
+}
+
+void mean_transmittance(const OpticalDepth& depth, const Receiver& receiver,
+                        std::span<const Point> corners, const Hull* hull, double step,
+                        std::span<double> mean) {
+    std::fill(mean.begin(), mean.end(), 1.0);
+    if (depth.transparent() || corners.size() < 3) return;
+    thread_local Scratch scratch;
+    auto& open = scratch.open;
+    open.clear();
+    for (std::size_t k = 1; k + 1 < corners.size(); ++k)
+        open.push_back(
+            {corners[0], corners[k], corners[k + 1],
+             0.5 * glm::length(glm::cross(corners[k] - corners[0], corners[k + 1] - corners[0]))});
+    Mean sum(depth, receiver, hull, mean.size(), scratch);
+    for (std::size_t count = open.size(); !open.empty();) {
+        const Triangle t = open.back();
+        open.pop_back();
+        const double wide = spread(t);
+        double varies = sum.look(t, degree_2);
+        if (varies <= low_share * step && (wide < 0.25 || varies < flat * step)) {
+            sum.deposit(degree_2.size());
+            continue;
+        }
+        varies = sum.look(t, degree_5);
+        if (count >= most_triangles || (varies <= step && (wide < 1.0 || varies < flat * step))) {
+            sum.deposit(degree_5.size());
+            continue;
+        }
+        for (const Triangle& half : bisect(t)) open.push_back(half);
+        ++count;
+    }
+    if (sum.total() <= 0.0) return;
+    for (std::size_t band = 0; band < mean.size(); ++band)
+        mean[band] = scratch.sum[band] / sum.total();
+}
+
+}  // namespace tyndall::radiosity

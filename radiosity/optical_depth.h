@@ -1,0 +1,49 @@
+// Optical depth between two points that see each other.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "mesh/convex_merge.h"
+#include "radiosity/enclosure.h"
+
+namespace tyndall::radiosity {
+
+// Equation: ∫ κ_t ds = κ_x s + Σ_k (s − s_k) Δκ_k, over the interfaces k that the segment crosses
+// at
+//   distance s_k and where the extinction changes by Δκ_k: no order is needed. Where there are many
+//   interfaces, the base tets are walked instead.
+// Valid for: media homogeneous in each region.
+// Cost: one plane test an interface polygon; nothing where all is one medium.
+class OpticalDepth {
+  public:
+    // Keeps a reference to the enclosure. `tolerance` [m]: points nearer to a plane are on it.
+    OpticalDepth(const Enclosure& enclosure, double tolerance);
+
+    // Whether there is no medium at all.
+    bool transparent() const { return transparent_; }
+
+    // From x, in `tet`, to x + path: `depth` has one value a band [-].
+    void operator()(Point x, TetId tet, Direction path, std::span<double> depth) const;
+
+  private:
+    struct Interface {
+        mesh::ConvexPolygon polygon;
+        double offset = 0.0;        // dot(normal, p) of its plane
+        std::uint32_t front, back;  // media
+    };
+
+    double extinction(std::uint32_t medium, std::size_t band) const {
+        return medium == none ? 0.0 : enclosure_->media[medium].extinction[band];
+    }
+    bool differ(std::uint32_t a, std::uint32_t b) const;
+    void find_interfaces();
+    void walked(Point x, TetId tet, Direction path, std::span<double> depth) const;
+
+    const Enclosure* enclosure_;
+    double tolerance_;
+    bool transparent_ = true;
+    std::vector<Interface> interfaces_;
+};
+
+}  // namespace tyndall::radiosity

@@ -1,0 +1,99 @@
+// Where elements are too coarse for what they hold, and their refinement.
+#pragma once
+
+#include "radiosity/element_mesh.h"
+#include "radiosity/importance.h"
+#include "radiosity/progress.h"
+
+namespace tyndall::radiosity {
+
+struct RefineLimits {
+    std::size_t max_elements = 300000;
+    std::size_t max_memory = 2ull << 30;  // [byte]
+    double smallest_edge = 0.0;  // an element whose longest edge is below is left alone [m]
+};
+
+struct RefineResult {
+    double squared_error = 0.0;  // share of the squared relative error that remains [-]
+    bool limited = false;        // a limit ended it, not the goal
+    bool stopped = false;        // the caller did
+    std::size_t rays = 0;
+};
+
+// Direct light at elements: how far linear interpolation between corners is from the value in the
+// middle of every edge and at the centroid. Those points double as quadrature points of the
+// element's mean.
+//
+// Source: Cohen et al. (1986) for surfaces, Rushmeier (1988) for volumes: values of new elements
+// are computed anew, not interpolated.
+class DirectRefiner {
+  public:
+    DirectRefiner(const Enclosure& enclosure, ElementMesh& mesh, const DirectLight& light);
+
+    // Evaluates what is new in the mesh.
+    void update();
+    // Bisects until Σ weight (a error)² ≤ goal, or a limit.
+    RefineResult refine(const Importance& importance, double goal, const RefineLimits& limits,
+                        const ProgressCallback& progress);
+
+    // Mean of H^A over a leaf by the degree-2 rule of corners and centroid.
+    double mean(ZoneId zone, std::size_t band);
+    double mean(PatchId patch, std::size_t band);
+    // Largest interpolation error of a leaf, mean over bands [W/m^2/sr].
+    double error(ZoneId zone) const { return zone_error_[zone.value]; }
+    double error(PatchId patch) const { return patch_error_[patch.value]; }
+
+  private:
+    template <class Node>
+    void measure(Node node, std::vector<float>& errors, std::vector<std::uint8_t>& edges,
+                 const std::vector<double>& centroid);
+
+    const Enclosure& enclosure_;
+    ElementMesh& mesh_;
+    const DirectLight& light_;
+    std::size_t bands_;
+    std::size_t zones_done_ = 0, patches_done_ = 0;       // entries of the mesh's lists
+    std::vector<float> zone_error_, patch_error_;         // by node
+    std::vector<std::uint8_t> zone_edge_, patch_edge_;    // 4 i + j of the edge to bisect, by node
+    std::vector<double> zone_centroid_, patch_centroid_;  // H^A at centroids, by node and band
+};
+
+// Indirect light: gathered at the corners of the coarse elements and in the middle of their edges;
+// where interpolation departs by more than the noise of the gather, the element is bisected and so
+// on. An element below one that was found good enough takes over its linear function.
+class IndirectRefiner {
+  public:
+    // `coarse`: the elements where the descent starts.
+    IndirectRefiner(const Enclosure& enclosure, ElementMesh& mesh, const Elements& coarse,
+                    std::size_t rays, std::uint64_t seed);
+
+    // Gathers from `sources` (by value: new nodes take over their parents' functions on the way).
+    RefineResult refine(Fields sources, double detail, const Importance& importance, double goal,
+                        const RefineLimits& limits, const ProgressCallback& progress);
+
+    // The linear function of a leaf: its own, or that of the settled element above it.
+    Affine field(ZoneId zone, std::size_t band);
+    Affine field(PatchId patch, std::size_t band);
+    // Departure from linear found at the settled element, mean over bands [W/m^2/sr].
+    double error(ZoneId zone) const { return zone_error_[settled(zone, zone_settled_).value]; }
+    double error(PatchId patch) const { return patch_error_[settled(patch, patch_settled_).value]; }
+
+  private:
+    template <class Node>
+    Node settled(Node node, const std::vector<bool>& flags) const;
+    template <class Node>
+    void collect(const std::vector<Node>& frontier, std::vector<SampleId>& ids);
+    // Error beyond the noise, and the edge where it is largest.
+    template <class Node>
+    std::pair<double, std::array<int, 2>> measure(Node node);
+
+    const Enclosure& enclosure_;
+    ElementMesh& mesh_;
+    const Elements& coarse_;
+    PointSet points_;
+    std::uint64_t seed_;
+    std::vector<bool> zone_settled_, patch_settled_;  // by node
+    std::vector<float> zone_error_, patch_error_;     // by node
+};
+
+}  // namespace tyndall::radiosity

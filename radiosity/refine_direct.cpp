@@ -1,0 +1,186 @@
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "radiosity/refine.h"
+
+namespace tyndall::radiosity {
+namespace {
+
+// The mean square of an interpolation error over an element against the square of its largest value
+// at the edges' middles: a quarter holds for a kink across the element.
+constexpr double mean_square_share = 0.25;
+
+// A tet's edge is bisected where the error is largest, so that meshes stretch along shafts, but
+// never one much shorter than the longest, so that slivers do not run away.
+constexpr double shortest_bisected = 0.35;
+
+}  // namespace
+
+DirectRefiner::DirectRefiner(const Enclosure& enclosure, ElementMesh& mesh,
+                             const DirectLight& light)
+    : enclosure_(enclosure), mesh_(mesh), light_(light), bands_(enclosure.bands) {}
+
+template <class Node>
+void DirectRefiner::measure(Node node, std::vector<float>& errors, std::vector<std::uint8_t>& edges,
+                            const std::vector<double>& centroid) {
+    const Forest& forest = mesh_.forest();
+    const SampleSet& samples = mesh_.samples();
+    const auto corner = mesh_.corners(node);
+    const int count = static_cast<int>(corner.size());
+    const auto& vertices = forest[node].corners;
+    double worst = 0.0, worst_edge = 0.0;
+    const auto longest = forest.longest_edge(node);
+    std::array<int, 2> split = longest;
+    for (int i = 0; i < count; ++i)
+        for (int j = i + 1; j < count; ++j) {
+            const SampleId middle = mesh_.middle(node, i, j);
+            double error = 0.0;
+            for (std::size_t b = 0; b < bands_; ++b)
+                error += std::abs(samples.direct(middle, b) - 0.5 * (samples.direct(corner[i], b) +
+                                                                     samples.direct(corner[j], b)));
+            worst = std::max(worst, error);
+            const double length =
+                glm::distance(forest.point(vertices[i]), forest.point(vertices[j]));
+            if (error > worst_edge && length > shortest_bisected * forest[node].longest_edge) {
+                worst_edge = error;
+                split = {i, j};
+            }
+        }
+    double at_centroid = 0.0;
+    for (std::size_t b = 0; b < bands_; ++b) {
+        double mean = 0.0;
+        for (const SampleId id : corner) mean += samples.direct(id, b) / count;
+        at_centroid += std::abs(centroid[node.value * bands_ + b] - mean);
+    }
+    if (at_centroid > 2.0 * worst_edge) split = longest;
+    errors[node.value] =
+        static_cast<float>(std::max(worst, at_centroid) / static_cast<double>(bands_));
+    edges[node.value] = static_cast<std::uint8_t>(4 * split[0] + split[1]);
+}
+
+void DirectRefiner::update() {
+    const Forest& forest = mesh_.forest();
+    std::vector<ZoneId> zones;
+    std::vector<PatchId> patches;
+    for (; zones_done_ < mesh_.zones().size(); ++zones_done_)
+        if (const ZoneId z = mesh_.zones()[zones_done_]; forest.is_leaf(z)) zones.push_back(z);
+    for (; patches_done_ < mesh_.patches().size(); ++patches_done_)
+        if (const PatchId p = mesh_.patches()[patches_done_]; forest.is_leaf(p))
+            patches.push_back(p);
+    for (const ZoneId z : zones) {
+        mesh_.corners(z);
+        for (int i = 0; i < 4; ++i)
+            for (int j = i + 1; j < 4; ++j) mesh_.middle(z, i, j);
+    }
+    for (const PatchId p : patches) {
+        mesh_.corners(p);
+        for (int i = 0; i < 3; ++i)
+            for (int j = i + 1; j < 3; ++j) mesh_.middle(p, i, j);
+    }
+    mesh_.samples().light(light_);
+
+    zone_error_.resize(forest.zone_count());
+    zone_edge_.resize(forest.zone_count());
+    zone_centroid_.resize(forest.zone_count() * bands_);
+    patch_error_.resize(forest.patch_count());
+    patch_edge_.resize(forest.patch_count());
+    patch_centroid_.resize(forest.patch_count() * bands_);
+    tbb::parallel_for(std::size_t(0), zones.size(), [&](std::size_t k) {
+        const ZoneId z = zones[k];
+        light_.at_zone(forest.centroid(z), forest.base_tet(z),
+                       {zone_centroid_.data() + z.value * bands_, bands_});
+    });
+    tbb::parallel_for(std::size_t(0), patches.size(), [&](std::size_t k) {
+        const PatchId p = patches[k];
+        const auto side = forest.base_facet_side(p);
+        light_.at_patch(forest.centroid(p), normal_of(forest, p),
+                        enclosure_.mesh.facets[side / 2].tets[side % 2],
+                        {patch_centroid_.data() + p.value * bands_, bands_});
+    });
+    for (const ZoneId z : zones) measure(z, zone_error_, zone_edge_, zone_centroid_);
+    for (const PatchId p : patches) measure(p, patch_error_, patch_edge_, patch_centroid_);
+}
+
+RefineResult DirectRefiner::refine(const Importance& importance, double goal,
+                                   const RefineLimits& limits, const ProgressCallback& progress) {
+    RefineResult result;
+    const Forest& forest = mesh_.forest();
+    struct Candidate {
+        double share;
+        std::uint32_t index;
+        bool is_zone;
+    };
+    std::vector<Candidate> candidates;
+    double first = 0.0;
+    for (;;) {
+        update();
+        candidates.clear();
+        result.squared_error = 0.0;
+        for (const ZoneId z : mesh_.zones()) {
+            if (!forest.is_leaf(z) || zone_error_[z.value] == 0.0f) continue;
+            const auto& optics = enclosure_.media[medium_of(enclosure_, forest, z)];
+            const double error = mean_over_bands(optics.albedo) * zone_error_[z.value];
+            const double share = mean_square_share * importance.of(z) * error * error;
+            result.squared_error += share;
+            if (forest[z].longest_edge > limits.smallest_edge)
+                candidates.push_back({share, z.value, true});
+        }
+        for (const PatchId p : mesh_.patches()) {
+            if (!forest.is_leaf(p) || patch_error_[p.value] == 0.0f) continue;
+            const auto& side = enclosure_.sides[side_of(enclosure_, forest, p)];
+            const double error = mean_over_bands(side.reflectance) * patch_error_[p.value];
+            const double share = mean_square_share * importance.of(p) * error * error;
+            result.squared_error += share;
+            if (forest[p].longest_edge > limits.smallest_edge)
+                candidates.push_back({share, p.value, false});
+        }
+        if (first == 0.0) first = result.squared_error;
+        const double gone = first > goal && result.squared_error > 0.0
+                                ? std::log(first / result.squared_error) / std::log(first / goal)
+                                : 1.0;
+        if (progress &&
+            !progress({"direct light", std::clamp(gone, 0.0, 1.0), mesh_.leaf_count(), 0.0})) {
+            result.stopped = true;
+            return result;
+        }
+        if (result.squared_error <= goal) return result;
+        if (mesh_.leaf_count() >= limits.max_elements || mesh_.memory() > limits.max_memory) {
+            result.limited = true;
+            return result;
+        }
+        // Equidistribution: at the goal every leaf may keep the same share.
+        const double threshold = goal / static_cast<double>(mesh_.leaf_count());
+        std::erase_if(candidates, [&](const Candidate& c) { return c.share <= threshold; });
+        if (candidates.empty()) return result;
+        std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+            return a.share != b.share
+                       ? a.share > b.share
+                       : std::pair(a.is_zone, a.index) < std::pair(b.is_zone, b.index);
+        });
+        for (const Candidate& c : candidates) {
+            if (mesh_.leaf_count() >= limits.max_elements) break;
+            if (c.is_zone) {
+                const auto edge = zone_edge_[c.index];
+                mesh_.bisect(ZoneId(c.index), {edge / 4, edge % 4});
+            } else if (forest.is_leaf(PatchId(c.index))) {
+                mesh_.bisect(PatchId(c.index));
+            }
+        }
+    }
+}
+
+double DirectRefiner::mean(ZoneId zone, std::size_t band) {
+    double sum = 0.0;
+    for (const SampleId id : mesh_.corners(zone)) sum += mesh_.samples().direct(id, band);
+    return 0.05 * sum + 0.8 * zone_centroid_[zone.value * bands_ + band];
+}
+
+double DirectRefiner::mean(PatchId patch, std::size_t band) {
+    double sum = 0.0;
+    for (const SampleId id : mesh_.corners(patch)) sum += mesh_.samples().direct(id, band);
+    return sum / 12.0 + 0.75 * patch_centroid_[patch.value * bands_ + band];
+}
+
+}  // namespace tyndall::radiosity

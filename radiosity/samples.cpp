@@ -1,0 +1,92 @@
+#include "radiosity/samples.h"
+
+#include <tbb/parallel_for.h>
+
+namespace tyndall::radiosity {
+namespace {
+
+// Samples on walls and edges step into their fan by this share of the way to its centroid, so that
+// no point lies in the plane of an occluder.
+constexpr double step_inside = 1e-5;
+
+std::size_t dimension(const mesh::Carrier& carrier) {
+    std::size_t n = 0;
+    while (n < 4 && carrier[n].valid()) ++n;
+    return n - 1;
+}
+
+}  // namespace
+
+SampleSet::SampleSet(const Enclosure& enclosure, const Forest& forest)
+    : enclosure_(enclosure), forest_(forest), fans_(enclosure.mesh), bands_(enclosure.bands) {}
+
+SampleId SampleSet::in_zone(VertexId vertex, TetId tet) {
+    const auto& carrier = forest_.carrier(vertex);
+    const TetId fan = fans_.of_tet(carrier, tet);
+    const auto [entry, made] = ids_.try_emplace({vertex, fan.value}, SampleId(points_.size()));
+    if (made) {
+        GatherPoint point;
+        point.x = forest_.point(vertex);
+        point.start = {fan};
+        if (dimension(carrier) < 3)
+            point.x += step_inside * (forest_.centroid(mesh::root_zone(fan)) - point.x);
+        points_.push_back(point);
+    }
+    return entry->second;
+}
+
+SampleId SampleSet::on_patch(VertexId vertex, std::uint32_t facet_side) {
+    const auto& carrier = forest_.carrier(vertex);
+    const std::uint32_t fan = fans_.of_facet_side(carrier, facet_side);
+    const auto [entry, made] =
+        ids_.try_emplace({vertex, fan | 0x80000000u}, SampleId(points_.size()));
+    if (made) {
+        const FacetId facet(fan / 2);
+        const Side side = fan % 2 ? Side::back : Side::front;
+        const PatchId root = mesh::root_patch(facet, side);
+        GatherPoint point;
+        point.x = forest_.point(vertex);
+        point.start = mesh::start_on(enclosure_.mesh, facet, side);
+        point.normal = normal_of(forest_, root);
+        if (dimension(carrier) < 2) point.x += step_inside * (forest_.centroid(root) - point.x);
+        points_.push_back(point);
+    }
+    return entry->second;
+}
+
+void SampleSet::light(const DirectLight& light) {
+    direct_.resize(points_.size() * bands_);
+    tbb::parallel_for(lit_, points_.size(), [&](std::size_t k) {
+        const GatherPoint& p = points_[k];
+        const std::span<double> out(direct_.data() + k * bands_, bands_);
+        if (p.on_surface())
+            light.at_patch(p.x, p.normal, p.start.tet, out);
+        else
+            light.at_zone(p.x, p.start.tet, out);
+    });
+    lit_ = points_.size();
+}
+
+std::size_t SampleSet::gather_at(const std::vector<SampleId>& ids, const GatherScene& scene,
+                                 const PointSet& points, std::uint64_t seed) {
+    indirect_.resize(points_.size() * bands_);
+    gathered_.resize(points_.size());
+    std::vector<SampleId> missing;
+    for (const SampleId id : ids) {
+        if (gathered_[id.value]) continue;
+        gathered_[id.value] = true;
+        missing.push_back(id);
+    }
+    tbb::parallel_for(std::size_t(0), missing.size(), [&](std::size_t k) {
+        const std::size_t i = missing[k].value;
+        gather(scene, points_[i], points, seed,
+               std::span<Gathered>(indirect_.data() + i * bands_, bands_));
+    });
+    return missing.size() * points.size();
+}
+
+void SampleSet::forget_gathered() {
+    gathered_.assign(gathered_.size(), false);
+}
+
+}  // namespace tyndall::radiosity

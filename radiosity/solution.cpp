@@ -1,0 +1,66 @@
+#include "radiosity/solution.h"
+
+namespace tyndall::radiosity {
+namespace {
+
+const MediumOptics* optics(const Solution& s, ZoneId zone) {
+    const auto medium = medium_of(*s.enclosure, s.forest, zone);
+    return medium == none ? nullptr : &s.enclosure->media[medium];
+}
+
+const SurfaceSide* side(const Solution& s, PatchId patch) {
+    const auto index = side_of(*s.enclosure, s.forest, patch);
+    return index == none ? nullptr : &s.enclosure->sides[index];
+}
+
+Affine combine(double emission, double scatter, const Affine& direct, const Affine& indirect) {
+    return {scatter * (direct.gradient + indirect.gradient),
+            emission + scatter * (direct.constant + indirect.constant)};
+}
+
+}  // namespace
+
+double emission_of(const Solution& solution, ZoneId zone, std::size_t band) {
+    const auto* medium = optics(solution, zone);
+    return medium ? medium->emission[band] : 0.0;
+}
+
+double scatter_of(const Solution& solution, ZoneId zone, std::size_t band) {
+    const auto* medium = optics(solution, zone);
+    return medium ? medium->albedo[band] : 0.0;
+}
+
+double emission_of(const Solution& solution, PatchId patch, std::size_t band) {
+    const auto* surface = side(solution, patch);
+    return surface ? surface->emission[band] : 0.0;
+}
+
+double scatter_of(const Solution& solution, PatchId patch, std::size_t band) {
+    const auto* surface = side(solution, patch);
+    return surface ? surface->reflectance[band] : 0.0;
+}
+
+Fields reflected_sources(const Solution& s) {
+    Fields sources;
+    sources.resize(s.forest, s.enclosure->bands);
+    const bool split = s.direct_light == DirectLightMode::closed_form;
+    for (std::size_t z = 0; z < s.forest.zone_count(); ++z) {
+        const ZoneId zone(z);
+        if (!s.forest.is_leaf(zone)) continue;
+        for (std::size_t b = 0; b < sources.bands; ++b)
+            sources.at(zone, b) = combine(emission_of(s, zone, b), scatter_of(s, zone, b),
+                                          s.direct.at(zone, b), s.indirect.at(zone, b));
+    }
+    for (std::size_t p = 0; p < s.forest.patch_count(); ++p) {
+        const PatchId patch(p);
+        if (!s.forest.is_leaf(patch)) continue;
+        for (std::size_t b = 0; b < sources.bands; ++b)
+            sources.at(patch, b) =
+                combine(split ? 0.0 : emission_of(s, patch, b), scatter_of(s, patch, b),
+                        s.direct.at(patch, b), s.indirect.at(patch, b));
+    }
+    coarsen(s.forest, sources);
+    return sources;
+}
+
+}  // namespace tyndall::radiosity

@@ -1,0 +1,80 @@
+// What a solve returns: the mesh, what its elements hold, and how good it is.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "radiosity/fields.h"
+#include "radiosity/options.h"
+
+namespace tyndall::radiosity {
+
+// One turn of the loop: what was made, what it cost and gained.
+struct PassReport {
+    std::string stage;
+    std::size_t patches = 0, zones = 0;  // leaves
+    std::size_t rays = 0;                // walked in this pass
+    double cpu_seconds = 0.0, wall_seconds = 0.0;
+    std::size_t memory_bytes = 0;  // held by mesh, samples and rows
+    double estimated_error = 0.0;  // [-]
+};
+
+struct SolverReport {
+    std::string method;
+    std::size_t iterations = 0;
+    double residual = 0.0;
+    bool converged = false;
+};
+
+struct Report {
+    std::size_t patches = 0, zones = 0;  // leaves
+    std::size_t solved_elements = 0;     // elements of the coarse solution
+    std::vector<PassReport> passes;
+    SolverReport solver;
+    double closure_error = 0.0;       // max over rows [-]
+    double reciprocity_error = 0.0;   // of the rows [-]
+    double energy_balance = 0.0;      // imbalance over power brought in [-]
+    double direct_power_check = 0.0;  // (received + escaped − emitted) / emitted [-]
+    std::map<std::string, Spectrum>
+        net_power;                 // out of each surface side, medium; into outside [W]
+    double estimated_error = 0.0;  // of the picture, or of the solution where there is no view [-]
+    std::size_t lost_rays = 0;
+    bool stopped = false;  // by the caller, or at a limit
+    std::vector<std::string> warnings;
+};
+
+// What elements hold, per element of the coarse solution and band, for files and balances.
+struct ElementValues {
+    Elements elements;
+    std::vector<double> radiance;         // x [W/m^2/sr]
+    std::vector<double> incident;         // H, direct light included [W/m^2/sr]
+    std::vector<double> incident_direct;  // H^A [W/m^2/sr]
+};
+
+// The leaves' fields hold the incident radiance H (docs/theory.md), direct and indirect apart:
+//   patch: I = e + rho (direct + indirect),  zone: J = e + Omega (direct + indirect).
+struct Solution {
+    std::shared_ptr<const Enclosure> enclosure;
+    Forest forest;
+    Fields direct, indirect;  // of every leaf [W/m^2/sr]
+    ElementValues coarse;
+    DirectLightMode direct_light = DirectLightMode::closed_form;
+    std::vector<float> patch_error,
+        zone_error;  // estimated error of each leaf's x, by node [W/m^2/sr]
+    Report report;
+};
+
+// e of a leaf's one equation, and a: (1−Omega) J_e and Omega, or I_e and rho. Zero where nothing
+// is.
+double emission_of(const Solution& solution, ZoneId zone, std::size_t band);
+double scatter_of(const Solution& solution, ZoneId zone, std::size_t band);
+double emission_of(const Solution& solution, PatchId patch, std::size_t band);
+double scatter_of(const Solution& solution, PatchId patch, std::size_t band);
+
+// r of every leaf for gathers, coarsened: all it sends out but for the emission of surfaces that
+// direct light counts in closed form.
+Fields reflected_sources(const Solution& solution);
+
+}  // namespace tyndall::radiosity

@@ -1,0 +1,122 @@
+#include "render/file_bytes.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include "mesh/input_error.h"
+
+namespace tyndall::render {
+
+namespace fs = std::filesystem;
+using mesh::InputError;
+
+namespace {
+
+class File {
+  public:
+    File(const fs::path& path, int flags)
+        : descriptor_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
+    File(const File&) = delete;
+    File& operator=(const File&) = delete;
+    ~File() { close(); }
+
+    bool open() const { return descriptor_ >= 0; }
+    int descriptor() const { return descriptor_; }
+    // A full disk or quota may only show here.
+    bool close() {
+        const int result = open() ? ::close(descriptor_) : 0;
+        descriptor_ = -1;
+        return result == 0;
+    }
+
+  private:
+    int descriptor_;
+};
+
+[[noreturn]] void cannot(const char* what, const fs::path& path, const std::string& why) {
+    throw InputError(fmt::format("cannot {} '{}': {}.", what, path.string(), why));
+}
+
+std::string system_reason(int error) {
+    return std::strerror(error);
+}
+
+bool write_all(const File& file, std::string_view bytes) {
+    while (!bytes.empty()) {
+        const auto chunk = std::min<std::size_t>(bytes.size(), 1u << 30);
+        const auto count = ::write(file.descriptor(), bytes.data(), chunk);
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) return false;
+        bytes.remove_prefix(static_cast<std::size_t>(count));
+    }
+    return true;
+}
+
+void check_target(const fs::path& path) {
+    std::error_code ignored;
+    if (path.filename().empty() || fs::is_directory(path, ignored))
+        cannot("write", path, "it is a folder; give a file's name");
+    const auto folder = path.parent_path();
+    if (!folder.empty() && !fs::exists(folder, ignored))
+        cannot("write", path,
+               fmt::format("the folder '{}' does not exist; create it first", folder.string()));
+}
+
+void write_straight(const fs::path& path, std::string_view bytes) {
+    File file(path, O_WRONLY);
+    if (!file.open() || !write_all(file, bytes) || !file.close())
+        cannot("write", path, system_reason(errno));
+}
+
+void write_and_replace(const fs::path& path, std::string_view bytes) {
+    auto beside = path;
+    beside.replace_filename(fmt::format(".{}.{}.tmp", path.filename().string(), ::getpid()));
+    File file(beside, O_WRONLY | O_CREAT | O_TRUNC);
+    if (!file.open()) cannot("write", path, system_reason(errno));
+    const bool written = write_all(file, bytes) && file.close();
+    if (written && ::rename(beside.c_str(), path.c_str()) == 0) return;
+    const int error = errno;
+    ::unlink(beside.c_str());
+    cannot("write", path, system_reason(error));
+}
+
+}  // namespace
+
+std::string read_file(const fs::path& path) {
+    File file(path, O_RDONLY);
+    struct stat status {};
+    if (!file.open() || ::fstat(file.descriptor(), &status) != 0)
+        cannot("read", path, system_reason(errno));
+    if (S_ISDIR(status.st_mode)) cannot("read", path, "it is a folder; give a file's name");
+    std::string bytes(static_cast<std::size_t>(std::max<off_t>(status.st_size, 0)), '\0');
+    std::size_t filled = 0;
+    // Read until the end rather than st_size bytes: a pipe has no size, and a file may grow.
+    for (;;) {
+        if (filled == bytes.size()) bytes.resize(bytes.size() + (1u << 16));
+        const auto count = ::read(file.descriptor(), bytes.data() + filled, bytes.size() - filled);
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) cannot("read", path, system_reason(errno));
+        if (count == 0) break;
+        filled += static_cast<std::size_t>(count);
+    }
+    bytes.resize(filled);
+    return bytes;
+}
+
+void write_file(const fs::path& path, std::string_view bytes) {
+    check_target(path);
+    std::error_code error;
+    const auto status = fs::status(path, error);
+    if (fs::exists(status) && !fs::is_regular_file(status)) return write_straight(path, bytes);
+    // A link stays a link: what it points to is replaced.
+    const auto real = fs::exists(status) ? fs::canonical(path, error) : path;
+    write_and_replace(error ? path : real, bytes);
+}
+
+}  // namespace tyndall::render
