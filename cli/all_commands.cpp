@@ -3,6 +3,7 @@
 namespace tyndall::cli {
 
 void add_all_commands(Shell& shell) {
+    add_run_command(shell);
     add_compare_command(shell);
 }
 

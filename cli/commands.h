@@ -54,4 +54,7 @@ void add_all_commands(Shell& shell);
 // compare_command.cpp
 void add_compare_command(Shell& shell);
 
+// run_command.cpp
+void add_run_command(Shell& shell);
+
 }  // namespace tyndall::cli

@@ -1,8 +1,4 @@
-<<<<<<< HEAD
-// How a long computation tells where it is, and is asked to stop.
-=======
 // How a long computation says where it is, and is told to stop.
->>>>>>> images
 #pragma once
 
 #include <cstddef>
@@ -11,18 +7,6 @@
 
 namespace tyndall::radiosity {
 
-<<<<<<< HEAD
-struct Progress {
-    std::string stage;         // "exchange areas", "direct light", …
-    double fraction = 0.0;     // of the stage, 0 to 1
-    std::size_t elements = 0;  // of the mesh so far
-    double residual = 0.0;     // of the solver, where there is one
-};
-
-// Returns false to ask for a stop: the computation ends as soon as it has a valid result.
-using ProgressCallback = std::function<bool(const Progress&)>;
-
-=======
 // Where a computation is. Zero elements or residual: not known in this stage, not shown.
 struct Progress {
     std::string stage;         // "mesh", "pass 3: rows", "render", …
@@ -41,5 +25,4 @@ inline bool report(const ProgressCallback& callback, const Progress& progress) {
     return !callback || callback(progress);
 }
 
->>>>>>> images
 }  // namespace tyndall::radiosity

@@ -14,11 +14,7 @@ namespace tyndall::render {
 struct Camera {
     std::string name = "main";
     mesh::Point eye{0};     // [m]
-<<<<<<< HEAD
-    mesh::Point target{0};  // [m]
-=======
     mesh::Point target{0};  // in the middle of the picture [m]
->>>>>>> images
     mesh::Direction up{0, 0, 1};
     std::optional<double> fov_x, fov_y;     // whole angle across the picture [rad]
     std::size_t width = 640, height = 480;  // [pixel]

@@ -1,0 +1,294 @@
+#include "radiosity/adaptive.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "mesh/input_error.h"
+#include "radiosity/coarse_solution.h"
+#include "radiosity/refine.h"
+#include "radiosity/resources.h"
+
+namespace tyndall::radiosity {
+namespace {
+
+// How the squared error goal is shared out; the rest is for the noise of rows and gathers.
+constexpr double direct_share = 0.5;
+constexpr double indirect_share = 0.25;
+
+// A gather's zone may stand for its leaves when it is no longer than this many spacings of its rays.
+constexpr double detail_factor = 1.0;
+
+// The loop's state, step by step; each step leaves something that a valid solution can be made of.
+class Loop {
+  public:
+    Loop(std::shared_ptr<const Enclosure> enclosure, const SolveOptions& options,
+         const std::optional<View>& view, const ProgressCallback& progress)
+        : enclosure_(std::move(enclosure)),
+          options_(options),
+          view_(view),
+          progress_(progress),
+          light_(*enclosure_, {.emitters = options.direct_light == DirectLightMode::closed_form}),
+          mesh_(*enclosure_),
+          direct_(*enclosure_, mesh_, light_) {
+        begin_pass();
+    }
+
+    Solution run() {
+        make_initial_mesh();
+        CoarseSolution coarse(*enclosure_, mesh_.forest(), options_, progress_);
+        rays_ += coarse.rays();
+        direct_.update();
+        solve(coarse);
+        rate(coarse);
+        end_pass("coarse solution");
+
+        const Importance importance(*enclosure_, mesh_.forest(), view_, scale_);
+        if (options_.refinement == Refinement::adaptive) {
+            const auto result = direct_.refine(importance, direct_share * goal(), limits(), progress_);
+            note(result);
+            squared_error_ = result.squared_error;
+            solve(coarse);
+            end_pass("direct light");
+        }
+        IndirectRefiner indirect(*enclosure_, mesh_, coarse.elements(), options_.gather_rays, options_.seed);
+        const double indirect_goal =
+            options_.refinement == Refinement::adaptive ? indirect_share * goal() : 1e300;
+        const auto result = indirect.refine(coarse_sources(coarse), gather_detail(), importance,
+                                            indirect_goal, limits(), progress_);
+        note(result);
+        rays_ += result.rays;
+        squared_error_ += result.squared_error;
+        direct_.update();
+        Solution solution = collect(coarse, indirect);
+        end_pass("indirect light");
+        solution.report = finish(coarse);
+        return solution;
+    }
+
+  private:
+    double goal() const { return options_.error * options_.error; }
+    RefineLimits limits() const {
+        const auto& base = enclosure_->mesh;
+        return {options_.max_elements, options_.max_memory,
+                1e-4 * glm::distance(base.hull_min, base.hull_max)};
+    }
+    double gather_detail() const {
+        return detail_factor * std::sqrt(4.0 * M_PI / static_cast<double>(options_.gather_rays));
+    }
+
+    void make_initial_mesh();
+    void solve(CoarseSolution& coarse);
+    void rate(const CoarseSolution& coarse);
+    Fields coarse_sources(const CoarseSolution& coarse);
+    Solution collect(const CoarseSolution& coarse, IndirectRefiner& indirect);
+    Report finish(const CoarseSolution& coarse);
+    template <class Node>
+    std::uint32_t element_above(Node node, const std::vector<std::uint32_t>& of_node) const {
+        while (!(node.value < of_node.size() && of_node[node.value] != none))
+            node = mesh_.forest()[node].parent;
+        return of_node[node.value];
+    }
+    template <class Node>
+    Affine direct_field(Node node, std::size_t band);
+
+    void note(const RefineResult& result) {
+        stopped_ = stopped_ || result.stopped;
+        limited_ = limited_ || result.limited;
+    }
+    void begin_pass() {
+        cpu_ = cpu_seconds();
+        wall_ = wall_seconds();
+        rays_ = 0;
+    }
+    void end_pass(const std::string& stage) {
+        passes_.push_back({stage, mesh_.patch_leaf_count(), mesh_.zone_leaf_count(), rays_,
+                           cpu_seconds() - cpu_, wall_seconds() - wall_, mesh_.memory(),
+                           std::sqrt(squared_error_)});
+        begin_pass();
+    }
+
+    std::shared_ptr<const Enclosure> enclosure_;
+    SolveOptions options_;
+    std::optional<View> view_;
+    ProgressCallback progress_;
+    DirectLight light_;
+    ElementMesh mesh_;
+    DirectRefiner direct_;
+    std::vector<double> incident_direct_;  // of the coarse elements
+    Importance::Scale scale_;
+    std::vector<PassReport> passes_;
+    double squared_error_ = 0.0;
+    bool stopped_ = false, limited_ = false;
+    double cpu_ = 0.0, wall_ = 0.0;
+    std::size_t rays_ = 0;
+};
+
+void Loop::make_initial_mesh() {
+    const Forest& forest = mesh_.forest();
+    double volume = 0.0, area = 0.0;
+    for (const ZoneId z : mesh_.zones()) volume += forest.volume(z);
+    for (const PatchId p : mesh_.patches()) area += forest.area(p);
+    // About three thousand zones and a thousand patches, whatever the scene's size: fine enough for
+    // smooth indirect light, coarse enough that rows cost a second.
+    double zone_size = std::cbrt(volume / 3000.0 * 8.0), patch_size = std::sqrt(area / 1000.0 * 3.0);
+    if (options_.element_size > 0.0) zone_size = patch_size = options_.element_size;
+    if (options_.refinement == Refinement::none && options_.element_size == 0.0) return;
+    mesh_.refine_to(zone_size, patch_size, options_.max_elements);
+}
+
+// Direct light of the leaves summed into the coarse elements above them, then the linear system.
+void Loop::solve(CoarseSolution& coarse) {
+    const std::size_t bands = enclosure_->bands;
+    const Elements& e = coarse.elements();
+    incident_direct_.assign(e.size() * bands, 0.0);
+    std::vector<double> measure(e.size(), 0.0);
+    const auto add = [&](auto node, std::uint32_t element, double size) {
+        measure[element] += size;
+        for (std::size_t b = 0; b < bands; ++b)
+            incident_direct_[element * bands + b] += size * direct_.mean(node, b);
+    };
+    const Forest& forest = mesh_.forest();
+    for (const ZoneId z : mesh_.zones())
+        if (forest.is_leaf(z)) add(z, element_above(z, e.of_zone), forest.volume(z));
+    for (const PatchId p : mesh_.patches())
+        if (forest.is_leaf(p)) add(p, element_above(p, e.of_patch), forest.area(p));
+    for (std::size_t i = 0; i < e.size(); ++i)
+        for (std::size_t b = 0; b < bands; ++b)
+            if (measure[i] > 0.0) incident_direct_[i * bands + b] /= measure[i];
+    coarse.solve(incident_direct_);
+}
+
+// The picture's mean radiance and the solution's mean square, against which errors are measured.
+void Loop::rate(const CoarseSolution& coarse) {
+    const Elements& e = coarse.elements();
+    double square = 0.0, capacity = 0.0;
+    for (std::size_t i = 0; i < e.size(); ++i)
+        for (std::size_t b = 0; b < e.bands; ++b) {
+            const std::size_t k = i * e.bands + b;
+            const double x = coarse.reflected(i, b);
+            square += e.capacity[k] * x * x;
+            capacity += e.capacity[k];
+        }
+    scale_.solution = capacity > 0.0 ? square / capacity : 0.0;
+    if (!view_) return;
+    const TetId eye = mesh::locate(enclosure_->mesh, view_->eye);
+    if (!eye.valid() || enclosure_->solid(eye)) {
+        view_.reset();
+        return;
+    }
+    const Fields sources = coarse_sources(coarse);
+    const GatherScene scene{*enclosure_, mesh_.forest(), sources, 0.0};
+    constexpr int across = 32, down = 24;
+    Spectrum radiance(e.bands);
+    double sum = 0.0;
+    for (int y = 0; y < down; ++y)
+        for (int x = 0; x < across; ++x) {
+            const double s = (2.0 * (x + 0.5) / across - 1.0) * view_->tan_half_x;
+            const double t = (1.0 - 2.0 * (y + 0.5) / down) * view_->tan_half_y;
+            const mesh::Ray ray{view_->eye, glm::normalize(view_->forward + s * view_->right + t * view_->up)};
+            radiance_along(scene, ray, {eye}, radiance);
+            sum += mean_over_bands(radiance);
+        }
+    scale_.picture = sum / (across * down);
+}
+
+template <class Node>
+Affine Loop::direct_field(Node node, std::size_t band) {
+    const Forest& forest = mesh_.forest();
+    const auto samples = mesh_.corners(node);
+    std::array<Point, std::tuple_size_v<decltype(samples)>> points;
+    std::array<double, std::tuple_size_v<decltype(samples)>> values;
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+        points[k] = forest.point(forest[node].corners[k]);
+        values[k] = mesh_.samples().direct(samples[k], band);
+    }
+    return interpolate(points, values);
+}
+
+// r of the leaves as the coarse solution knows it: their own direct light with its mean kept, the
+// coarse element's indirect light.
+Fields Loop::coarse_sources(const CoarseSolution& coarse) {
+    const Elements& e = coarse.elements();
+    const Forest& forest = mesh_.forest();
+    Fields sources;
+    sources.resize(forest, e.bands);
+    const auto fill = [&](auto node, std::uint32_t element, Point centroid) {
+        for (std::size_t b = 0; b < e.bands; ++b) {
+            const std::size_t k = element * e.bands + b;
+            Affine f = direct_field(node, b);
+            f.constant += direct_.mean(node, b) - f.at(centroid);
+            const double a = e.scatter[k];
+            sources.at(node, b) = {a * f.gradient,
+                                   e.emission[k] - coarse.split_emission(element, b) +
+                                       a * (f.constant + coarse.indirect(element, b))};
+        }
+    };
+    for (const ZoneId z : mesh_.zones())
+        if (forest.is_leaf(z)) fill(z, element_above(z, e.of_zone), forest.centroid(z));
+    for (const PatchId p : mesh_.patches())
+        if (forest.is_leaf(p)) fill(p, element_above(p, e.of_patch), forest.centroid(p));
+    coarsen(forest, sources);
+    return sources;
+}
+
+Solution Loop::collect(const CoarseSolution& coarse, IndirectRefiner& indirect) {
+    const Forest& forest = mesh_.forest();
+    const std::size_t bands = enclosure_->bands;
+    Solution solution;
+    solution.enclosure = enclosure_;
+    solution.direct_light = options_.direct_light;
+    solution.direct.resize(forest, bands);
+    solution.indirect.resize(forest, bands);
+    solution.zone_error.resize(forest.zone_count());
+    solution.patch_error.resize(forest.patch_count());
+    const auto fill = [&](auto node, float& error) {
+        for (std::size_t b = 0; b < bands; ++b) {
+            solution.direct.at(node, b) = direct_field(node, b);
+            solution.indirect.at(node, b) = indirect.field(node, b);
+        }
+        error = static_cast<float>(0.5 * (direct_.error(node) + indirect.error(node)));
+    };
+    for (const ZoneId z : mesh_.zones())
+        if (forest.is_leaf(z)) fill(z, solution.zone_error[z.value]);
+    for (const PatchId p : mesh_.patches())
+        if (forest.is_leaf(p)) fill(p, solution.patch_error[p.value]);
+    solution.forest = forest;
+    solution.coarse = coarse.values(incident_direct_);
+    return solution;
+}
+
+Report Loop::finish(const CoarseSolution& coarse) {
+    Report report;
+    report.patches = mesh_.patch_leaf_count();
+    report.zones = mesh_.zone_leaf_count();
+    report.solved_elements = coarse.elements().size();
+    report.passes = passes_;
+    report.solver = coarse.report();
+    report.stopped = stopped_;
+    report.estimated_error = std::sqrt(squared_error_);
+    for (std::size_t b = 0; b < enclosure_->bands; ++b) {
+        report.closure_error =
+            std::max(report.closure_error, closure_error(coarse.areas(b), coarse.elements(), b));
+        report.reciprocity_error =
+            std::max(report.reciprocity_error, reciprocity_error(coarse.areas(b), coarse.elements()));
+    }
+    report.warnings = enclosure_->warnings;
+    if (limited_)
+        report.warnings.push_back(fmt::format(
+            "refinement ended at a limit (max_elements = {}, max_memory = {} bytes) before the error "
+            "goal of {}.", options_.max_elements, options_.max_memory, options_.error));
+    if (!report.solver.converged)
+        report.warnings.push_back(fmt::format("the solver did not converge: residual {:.2e} after {} iterations.",
+                                              report.solver.residual, report.solver.iterations));
+    return report;
+}
+
+}  // namespace
+
+Solution solve_adaptively(std::shared_ptr<const Enclosure> enclosure, const SolveOptions& options,
+                          const std::optional<View>& view, const ProgressCallback& progress) {
+    return Loop(std::move(enclosure), options, view, progress).run();
+}
+
+}  // namespace tyndall::radiosity

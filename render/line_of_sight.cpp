@@ -1,0 +1,207 @@
+#include "render/line_of_sight.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+
+#include "mesh/input_error.h"
+#include "radiosity/point_set.h"
+#include "radiosity/segment.h"
+
+namespace tyndall::render {
+namespace {
+
+using mesh::Point;
+using radiosity::Affine;
+using radiosity::none;
+using radiosity::PatchId;
+using radiosity::ZoneId;
+
+enum Part { emission, surfaces_direct, surfaces_indirect, single_scattering, multiple_scattering, parts };
+
+constexpr const char* part_names[parts] = {"emission", "surfaces_direct", "surfaces_indirect",
+                                           "single_scattering", "multiple_scattering"};
+
+// What one ray sees, a value a part and band ([part * bands + band]).
+struct Seen {
+    std::vector<double> radiance;
+    std::vector<double> transmittance;
+    double depth = std::numeric_limits<double>::infinity();
+};
+
+class LineOfSight {
+  public:
+    explicit LineOfSight(const radiosity::Solution& solution)
+        : s_(solution), e_(*solution.enclosure), bands_(e_.bands) {}
+
+    void look(const mesh::Ray& ray, mesh::WalkStart start, Seen& seen) const {
+        seen.radiance.assign(parts * bands_, 0.0);
+        seen.transmittance.assign(bands_, 1.0);
+        seen.depth = std::numeric_limits<double>::infinity();
+        const auto end = mesh::walk(e_.mesh, ray, start, [&](mesh::TetId tet, double t_in, double t_out) {
+            const auto medium = e_.solid(tet) ? none : e_.medium_of(tet);
+            if (medium == none) return true;
+            return mesh::descend(s_.forest, mesh::root_zone(tet), ray, t_in, t_out, mesh::at_leaves,
+                                 [&](ZoneId zone, double s_in, double s_out) {
+                                     return cross(ray, e_.media[medium], zone, s_in, s_out, seen);
+                                 });
+        });
+        if (end.arrival == mesh::Arrival::struck)
+            strike(ray, end, seen);
+        else if (end.arrival == mesh::Arrival::left)
+            for (std::size_t b = 0; b < bands_; ++b)
+                seen.radiance[emission * bands_ + b] += seen.transmittance[b] * e_.environment[b];
+    }
+
+  private:
+    bool cross(const mesh::Ray& ray, const radiosity::MediumOptics& optics, ZoneId zone, double t_in,
+               double t_out, Seen& seen) const {
+        const Point in = ray.origin + t_in * ray.direction, out = ray.origin + t_out * ray.direction;
+        double most = 0.0;
+        for (std::size_t b = 0; b < bands_; ++b) {
+            const auto w = radiosity::segment_weights(optics.extinction[b] * (t_out - t_in));
+            double& transmittance = seen.transmittance[b];
+            const auto gain = [&](Part part, double at_in, double at_out) {
+                seen.radiance[part * bands_ + b] +=
+                    transmittance * (w.front * std::max(0.0, at_in) + w.back * std::max(0.0, at_out));
+            };
+            const double a = optics.albedo[b];
+            const Affine& direct = s_.direct.at(zone, b);
+            const Affine& indirect = s_.indirect.at(zone, b);
+            gain(emission, optics.emission[b], optics.emission[b]);
+            gain(single_scattering, a * direct.at(in), a * direct.at(out));
+            gain(multiple_scattering, a * indirect.at(in), a * indirect.at(out));
+            transmittance *= w.transmittance;
+            most = std::max(most, transmittance);
+        }
+        return most > 1e-9;
+    }
+
+    void strike(const mesh::Ray& ray, const mesh::WalkEnd& end, Seen& seen) const {
+        const auto side = e_.facet_sides[end.facet.value][end.side == mesh::Side::back];
+        seen.depth = end.distance;
+        if (side == none) return;
+        const auto& optics = e_.sides[side];
+        const Point x = ray.origin + end.distance * ray.direction;
+        const PatchId leaf = s_.forest.leaf_at(mesh::root_patch(end.facet, end.side), x);
+        for (std::size_t b = 0; b < bands_; ++b) {
+            const double t = seen.transmittance[b], rho = optics.reflectance[b];
+            seen.radiance[emission * bands_ + b] += t * optics.emission[b];
+            seen.radiance[surfaces_direct * bands_ + b] +=
+                t * rho * std::max(0.0, s_.direct.at(leaf, b).at(x));
+            seen.radiance[surfaces_indirect * bands_ + b] +=
+                t * rho * std::max(0.0, s_.indirect.at(leaf, b).at(x));
+        }
+    }
+
+    const radiosity::Solution& s_;
+    const radiosity::Enclosure& e_;
+    std::size_t bands_;
+};
+
+// Where rays from the eye enter the mesh: the eye's own tet, or, from outside the hull, the point where
+// the ray meets it.
+struct Entry {
+    mesh::TetId tet;
+    double distance = 0.0;
+};
+
+Entry entry_of(const mesh::BaseMesh& mesh, const mesh::Ray& ray, mesh::TetId eye) {
+    if (eye.valid()) return {eye, 0.0};
+    double t_in = 0.0, t_out = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < 3; ++k) {
+        const double inverse = 1.0 / ray.direction[k];
+        double a = (mesh.hull_min[k] - ray.origin[k]) * inverse;
+        double b = (mesh.hull_max[k] - ray.origin[k]) * inverse;
+        if (a > b) std::swap(a, b);
+        t_in = std::max(t_in, a);
+        t_out = std::min(t_out, b);
+    }
+    if (!(t_in < t_out)) return {};
+    const double inside = t_in + 1e-9 * (t_out - t_in);
+    return {mesh::locate(mesh, ray.origin + inside * ray.direction), inside};
+}
+
+Image blank(const Camera& camera, std::size_t bands) {
+    Image image;
+    image.width = camera.width;
+    image.height = camera.height;
+    const auto add = [&](const char* name, std::size_t channels) {
+        image.layers.push_back({name, channels, std::vector<float>(image.width * image.height * channels)});
+    };
+    add("beauty", bands);
+    for (const char* name : part_names) add(name, bands);
+    add("transmittance", bands);
+    add("depth", 1);
+    return image;
+}
+
+}  // namespace
+
+Image line_of_sight(const radiosity::Solution& solution, const Camera& camera,
+                    const RenderOptions& options, const radiosity::ProgressCallback& progress) {
+    const auto& enclosure = *solution.enclosure;
+    const std::size_t bands = enclosure.bands;
+    const mesh::TetId eye = mesh::locate(enclosure.mesh, camera.eye);
+    if (eye.valid() && enclosure.solid(eye))
+        throw mesh::InputError(fmt::format(
+            "camera \"{}\" at [{}, {}, {}] stands inside a solid. Move its eye into the open.",
+            camera.name, camera.eye.x, camera.eye.y, camera.eye.z));
+    Image image = blank(camera, bands);
+    const LineOfSight line(solution);
+    const auto grid = static_cast<std::size_t>(std::ceil(std::sqrt(double(options.samples))));
+    const double share = 1.0 / static_cast<double>(grid * grid);
+    std::atomic<std::size_t> rows_done = 0;
+    std::atomic<bool> stop = false;
+
+    tbb::parallel_for(std::size_t(0), camera.height, [&](std::size_t y) {
+        if (stop) return;
+        Seen seen;
+        std::vector<double> sum;
+        for (std::size_t x = 0; x < camera.width; ++x) {
+            const std::size_t pixel = y * camera.width + x;
+            sum.assign((parts + 1) * bands, 0.0);
+            double depth = std::numeric_limits<double>::infinity();
+            for (std::size_t k = 0; k < grid * grid; ++k) {
+                // Jitter inside each cell of the grid turns what aliasing is left into noise.
+                const auto h = radiosity::hash_seed(options.seed + pixel, k);
+                const double u = (double(k % grid) + 0x1p-32 * double(h >> 32)) / double(grid);
+                const double v = (double(k / grid) + 0x1p-32 * double(h & 0xffffffffu)) / double(grid);
+                mesh::Ray ray = camera.ray(double(x) + u, double(y) + v);
+                const Entry entry = entry_of(enclosure.mesh, ray, eye);
+                if (!entry.tet.valid() || enclosure.solid(entry.tet)) {
+                    for (std::size_t b = 0; b < bands; ++b) {
+                        sum[emission * bands + b] += entry.tet.valid() ? 0.0 : enclosure.environment[b];
+                        sum[parts * bands + b] += 1.0;
+                    }
+                    continue;
+                }
+                ray.origin += entry.distance * ray.direction;
+                line.look(ray, {entry.tet}, seen);
+                for (std::size_t n = 0; n < parts * bands; ++n) sum[n] += seen.radiance[n];
+                for (std::size_t b = 0; b < bands; ++b) sum[parts * bands + b] += seen.transmittance[b];
+                depth = std::min(depth, entry.distance + seen.depth);
+            }
+            for (std::size_t b = 0; b < bands; ++b) {
+                double beauty = 0.0;
+                for (std::size_t part = 0; part < parts; ++part) {
+                    const double value = share * sum[part * bands + b];
+                    image.layers[1 + part].values[pixel * bands + b] = static_cast<float>(value);
+                    beauty += value;
+                }
+                image.layers[0].values[pixel * bands + b] = static_cast<float>(beauty);
+                image.layers[1 + parts].values[pixel * bands + b] =
+                    static_cast<float>(share * sum[parts * bands + b]);
+            }
+            image.layers[2 + parts].values[pixel] = static_cast<float>(depth);
+        }
+        const std::size_t done = ++rows_done;
+        if (progress && !progress({"picture", double(done) / double(camera.height), 0, 0.0})) stop = true;
+    });
+    return image;
+}
+
+}  // namespace tyndall::render

@@ -1,0 +1,24 @@
+// Pictures by the line of sight: the walk along every pixel's ray with linear J in closed form.
+#pragma once
+
+#include "radiosity/progress.h"
+#include "radiosity/solution.h"
+#include "render/camera.h"
+#include "render/image.h"
+#include "render/options.h"
+
+namespace tyndall::render {
+
+// Purpose: a picture of a solution, with the parts that make it up as layers:
+//   beauty = emission + surfaces_direct + surfaces_indirect + single_scattering + multiple_scattering
+//   and transmittance (of the medium in front of what is seen), depth [m] (infinity: nothing hit).
+// Equation: I = Σ_segments T ∫ κ e^{−κs} J ds + T I_surface, J and I linear in each leaf.           (4)
+// Anti-aliased: `samples` rays a pixel on a jittered grid, box filter of one pixel.
+// A camera outside the hull looks in through it. Radiances are never negative.
+// Errors: mesh::InputError for a camera inside a solid.
+// Cost: leaves crossed × pixels × samples. Same bits at any thread count.
+Image line_of_sight(const radiosity::Solution& solution, const Camera& camera,
+                    const RenderOptions& options = {},
+                    const radiosity::ProgressCallback& progress = {});
+
+}  // namespace tyndall::render
