@@ -26,9 +26,11 @@ int main() {
     camera.height = 120;
     scene.viewpoints = {camera.eye};
 
-    // Mesh, solve, render.
+    // Mesh, solve, render. Coarse, to be quick: without options the goal is 1 %.
+    const radiosity::SolveOptions options{
+        .error = 0.1, .element_size = 1.0, .max_elements = 4000, .rays = 64, .gather_rays = 64};
     const auto enclosure =
         std::make_shared<const radiosity::Enclosure>(radiosity::make_enclosure(scene));
-    const auto solution = radiosity::solve_adaptively(enclosure, {.error = 0.1}, camera.view());
+    const auto solution = radiosity::solve_adaptively(enclosure, options, camera.view());
     render::write_image("smoky_room.png", render::line_of_sight(solution, camera));
 }
