@@ -38,6 +38,7 @@ class Shell {
 
   private:
     int parse_and_run(int argc, const char* const* argv);
+    int help(const std::string& name) const;  // `tyndall help [COMMAND]`
     int usage_error(const std::string& message) const;
 
     std::unique_ptr<CLI::App> app_;

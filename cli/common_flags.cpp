@@ -14,11 +14,23 @@ Setting parse_setting(const std::string& text) {
     return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
+// CLI11 reads −1 as the largest unsigned number.
+CLI::Validator whole_number() {
+    return CLI::Validator(
+        [](const std::string& text) {
+            const bool digits =
+                !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+            return digits ? "" : "'" + text + "' is not a whole number of at least 0";
+        },
+        "", "whole number");
+}
+
 }  // namespace
 
 void add_common_flags(CLI::App& command, CommonFlags& flags) {
     command.add_option("--threads", flags.threads, "Threads to use; 0: all")
         ->type_name("N")
+        ->check(whole_number())
         ->group("Common flags");
     command.add_flag("-q,--quiet", flags.quiet, "No progress, no summary")->group("Common flags");
     command.add_flag("--json", flags.json, "Machine-readable results to standard output")
@@ -29,6 +41,7 @@ void add_seed_flag(CLI::App& command, CommonFlags& flags) {
     command
         .add_option("--seed", flags.seed, "Seed of the sampling; the same seed, the same result")
         ->type_name("S")
+        ->check(whole_number())
         ->group("Common flags");
 }
 

@@ -159,18 +159,22 @@ void add_compare_command(Shell& shell) {
         ->required();
     command.add_option("B", options->reference, "Reference, likewise")->required();
     command.add_option("--layer", options->layer,
-                       "Layer to compare, or direct_single = emission + surfaces_direct + "
-                       "single_scattering; the picture itself if not given");
+                       "Layer to compare; direct_single: emission + surfaces_direct + "
+                       "single_scattering");
     command.add_option("--difference", options->difference,
-                       "Write the signed difference here (.png): red is too bright, blue too dark");
-    command.add_option(
-        "--difference-range", options->difference_range,
-        "Difference in full colour, in the layer's unit; else what 99.5 % stay below");
-    const std::string limit = "Exit with 1 if the error is larger, as a fraction";
-    command.add_option("--max-rmse", options->max_rmse, limit);
-    command.add_option("--max-bias", options->max_bias, limit);
-    command.add_option("--max-block4", options->max_block4, limit);
-    command.add_option("--max-block16", options->max_block16, limit);
+                       "Write the difference as .png: red is too bright, blue too dark");
+    command
+        .add_option("--difference-range", options->difference_range,
+                    "Difference in full colour, in the layer's unit; else the 99.5th percentile")
+        ->check(CLI::PositiveNumber);
+    const auto add_limit = [&](const char* flag, std::optional<double>& limit) {
+        command.add_option(flag, limit, "Exit with 1 if this error, as a fraction, is larger")
+            ->check(CLI::NonNegativeNumber);
+    };
+    add_limit("--max-rmse", options->max_rmse);
+    add_limit("--max-bias", options->max_bias);
+    add_limit("--max-block4", options->max_block4);
+    add_limit("--max-block16", options->max_block16);
 }
 
 }  // namespace tyndall::cli

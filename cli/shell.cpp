@@ -10,7 +10,7 @@
 #include <new>
 
 #include "cli/commands.h"
-#include "cli/nearest_name.h"
+#include "cli/suggestion.h"
 #include "mesh/input_error.h"
 
 namespace tyndall::cli {
@@ -53,11 +53,16 @@ std::string wording(const CLI::App& app, const CLI::ParseError& error) {
     const auto chosen = app.get_subcommands();
     const auto& command = chosen.empty() ? app : *chosen.front();
     const auto rest = app.remaining(true);
-    if (error.get_name() != "ExtrasError" || rest.empty()) return error.what();
+    if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr || rest.empty())
+        return error.what();
     const auto& first = rest.front();
     const auto name = first.substr(0, first.find('='));
+    const auto flags = flag_names(command);
+    if (std::find(flags.begin(), flags.end(), name) != flags.end())
+        return fmt::format("'{}' belongs behind the command: tyndall {} … {}", name,
+                           command.get_name(), first);
     if (first.size() > 1 && first[0] == '-')
-        return fmt::format("unknown flag '{}'{}", name, did_you_mean(name, flag_names(command)));
+        return fmt::format("unknown flag '{}'. {}", name, suggest(name, flags));
     return fmt::format("'{}' is one argument too many", first);
 }
 
@@ -79,7 +84,7 @@ int fail(const std::string& message) {
 Shell::Shell()
     : app_(std::make_unique<CLI::App>(
           "Adaptive-mesh radiosity for surfaces and participating media", "tyndall")) {
-    app_->set_version_flag("--version", "tyndall " TYNDALL_VERSION);
+    app_->set_version_flag("--version", "tyndall " TYNDALL_VERSION, "The version");
     app_->set_help_flag("-h,--help", "This help");
     app_->footer(top_examples);
     app_->require_subcommand(1);
@@ -103,14 +108,23 @@ int Shell::usage_error(const std::string& message) const {
     return wrong_usage;
 }
 
+int Shell::help(const std::string& name) const {
+    const auto names = command_names(*app_);
+    if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end())
+        return usage_error(fmt::format("unknown command '{}'. {}", name, suggest(name, names)));
+    write_output(name.empty() ? app_->help() : app_->get_subcommand(name)->help());
+    return done;
+}
+
 int Shell::parse_and_run(int argc, const char* const* argv) {
     if (argc < 2) {
         fmt::print(stderr, "{}", app_->help());
         return wrong_usage;
     }
+    if (std::strcmp(argv[1], "help") == 0) return help(argc > 2 ? argv[2] : "");
     if (const auto name = unknown_command(*app_, argc, argv); !name.empty())
         return usage_error(
-            fmt::format("unknown command '{}'{}", name, did_you_mean(name, command_names(*app_))));
+            fmt::format("unknown command '{}'. {}", name, suggest(name, command_names(*app_))));
     try {
         app_->parse(argc, argv);
     } catch (const CLI::Success& request) {  // --help, --version

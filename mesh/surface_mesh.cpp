@@ -60,7 +60,7 @@ struct Piece {
 
 struct Place {
     std::uint32_t piece = SurfaceMeshes::no_group;
-    OpenMesh::FaceHandle face;
+    OpenMesh::FaceHandle face = OpenMesh::FaceHandle();
 };
 
 }  // namespace

@@ -16,7 +16,8 @@ namespace {
 constexpr double direct_share = 0.5;
 constexpr double indirect_share = 0.25;
 
-// A gather's zone may stand for its leaves when it is no longer than this many spacings of its rays.
+// A gather's zone may stand for its leaves when it is no longer than this many spacings of its
+// rays.
 constexpr double detail_factor = 1.0;
 
 // The loop's state, step by step; each step leaves something that a valid solution can be made of.
@@ -45,13 +46,15 @@ class Loop {
 
         const Importance importance(*enclosure_, mesh_.forest(), view_, scale_);
         if (options_.refinement == Refinement::adaptive) {
-            const auto result = direct_.refine(importance, direct_share * goal(), limits(), progress_);
+            const auto result =
+                direct_.refine(importance, direct_share * goal(), limits(), progress_);
             note(result);
             squared_error_ = result.squared_error;
             solve(coarse);
             end_pass("direct light");
         }
-        IndirectRefiner indirect(*enclosure_, mesh_, coarse.elements(), options_.gather_rays, options_.seed);
+        IndirectRefiner indirect(*enclosure_, mesh_, coarse.elements(), options_.gather_rays,
+                                 options_.seed);
         const double indirect_goal =
             options_.refinement == Refinement::adaptive ? indirect_share * goal() : 1e300;
         const auto result = indirect.refine(coarse_sources(coarse), gather_detail(), importance,
@@ -125,16 +128,13 @@ class Loop {
 };
 
 void Loop::make_initial_mesh() {
-    const Forest& forest = mesh_.forest();
-    double volume = 0.0, area = 0.0;
-    for (const ZoneId z : mesh_.zones()) volume += forest.volume(z);
-    for (const PatchId p : mesh_.patches()) area += forest.area(p);
-    // About three thousand zones and a thousand patches, whatever the scene's size: fine enough for
-    // smooth indirect light, coarse enough that rows cost a second.
-    double zone_size = std::cbrt(volume / 3000.0 * 8.0), patch_size = std::sqrt(area / 1000.0 * 3.0);
-    if (options_.element_size > 0.0) zone_size = patch_size = options_.element_size;
-    if (options_.refinement == Refinement::none && options_.element_size == 0.0) return;
-    mesh_.refine_to(zone_size, patch_size, options_.max_elements);
+    // Fine enough for smooth indirect light, coarse enough that rows cost about a second.
+    ElementMesh::InitialSize size{0.0, 4000, 1500};
+    if (options_.element_size > 0.0)
+        size = {options_.element_size, options_.max_elements, options_.max_elements};
+    else if (options_.refinement == Refinement::none)
+        return;
+    mesh_.refine_to(size);
 }
 
 // Direct light of the leaves summed into the coarse elements above them, then the linear system.
@@ -186,7 +186,8 @@ void Loop::rate(const CoarseSolution& coarse) {
         for (int x = 0; x < across; ++x) {
             const double s = (2.0 * (x + 0.5) / across - 1.0) * view_->tan_half_x;
             const double t = (1.0 - 2.0 * (y + 0.5) / down) * view_->tan_half_y;
-            const mesh::Ray ray{view_->eye, glm::normalize(view_->forward + s * view_->right + t * view_->up)};
+            const mesh::Ray ray{view_->eye,
+                                glm::normalize(view_->forward + s * view_->right + t * view_->up)};
             radiance_along(scene, ray, {eye}, radiance);
             sum += mean_over_bands(radiance);
         }
@@ -270,17 +271,20 @@ Report Loop::finish(const CoarseSolution& coarse) {
     for (std::size_t b = 0; b < enclosure_->bands; ++b) {
         report.closure_error =
             std::max(report.closure_error, closure_error(coarse.areas(b), coarse.elements(), b));
-        report.reciprocity_error =
-            std::max(report.reciprocity_error, reciprocity_error(coarse.areas(b), coarse.elements()));
+        report.reciprocity_error = std::max(report.reciprocity_error,
+                                            reciprocity_error(coarse.areas(b), coarse.elements()));
     }
     report.warnings = enclosure_->warnings;
     if (limited_)
-        report.warnings.push_back(fmt::format(
-            "refinement ended at a limit (max_elements = {}, max_memory = {} bytes) before the error "
-            "goal of {}.", options_.max_elements, options_.max_memory, options_.error));
+        report.warnings.push_back(
+            fmt::format("refinement ended at a limit (max_elements = {}, max_memory = {} bytes) "
+                        "before the error "
+                        "goal of {}.",
+                        options_.max_elements, options_.max_memory, options_.error));
     if (!report.solver.converged)
-        report.warnings.push_back(fmt::format("the solver did not converge: residual {:.2e} after {} iterations.",
-                                              report.solver.residual, report.solver.iterations));
+        report.warnings.push_back(
+            fmt::format("the solver did not converge: residual {:.2e} after {} iterations.",
+                        report.solver.residual, report.solver.iterations));
     return report;
 }
 

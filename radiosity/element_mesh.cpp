@@ -1,5 +1,7 @@
 #include "radiosity/element_mesh.h"
 
+#include <queue>
+
 namespace tyndall::radiosity {
 namespace {
 
@@ -66,13 +68,37 @@ SampleId ElementMesh::middle(PatchId patch, int i, int j) {
     return samples_.on_patch(vertex, forest_.base_facet_side(patch));
 }
 
-void ElementMesh::refine_to(double zone_size, double patch_size, std::size_t max_leaves) {
-    for (std::size_t k = 0; k < zones_.size() && leaf_count() < max_leaves; ++k)
-        if (forest_[zones_[k]].longest_edge > zone_size && forest_.is_leaf(zones_[k]))
-            bisect(zones_[k], forest_.longest_edge(zones_[k]));
-    for (std::size_t k = 0; k < patches_.size() && leaf_count() < max_leaves; ++k)
-        if (forest_[patches_[k]].longest_edge > patch_size && forest_.is_leaf(patches_[k]))
-            bisect(patches_[k]);
+void ElementMesh::refine_to(const InitialSize& size) {
+    using Entry = std::pair<float, std::uint32_t>;  // longest edge, node
+    // Longest first, lower node first among equals: as even as bisection can make the mesh.
+    const auto shorter = [](const Entry& a, const Entry& b) {
+        return a.first != b.first ? a.first < b.first : a.second > b.second;
+    };
+    std::priority_queue<Entry, std::vector<Entry>, decltype(shorter)> zones(shorter),
+        patches(shorter);
+    for (const ZoneId z : zones_)
+        if (forest_.is_leaf(z)) zones.push({forest_[z].longest_edge, z.value});
+    for (const PatchId p : patches_)
+        if (forest_.is_leaf(p)) patches.push({forest_[p].longest_edge, p.value});
+    while (!zones.empty() && zones.top().first > size.longest_edge && zone_leaves_ < size.zones) {
+        const ZoneId zone(zones.top().second);
+        zones.pop();
+        bisect(zone, forest_.longest_edge(zone));
+        for (const std::uint64_t k : {0, 1}) {
+            const ZoneId child(forest_[zone].first_child.value + k);
+            zones.push({forest_[child].longest_edge, child.value});
+        }
+    }
+    while (!patches.empty() && patches.top().first > size.longest_edge &&
+           patch_leaves_ < size.patches) {
+        const PatchId patch(patches.top().second);
+        patches.pop();
+        if (!forest_.is_leaf(patch)) continue;  // bisected with a neighbour
+        const std::size_t before = patches_.size();
+        bisect(patch);
+        for (std::size_t k = before; k < patches_.size(); ++k)
+            patches.push({forest_[patches_[k]].longest_edge, patches_[k].value});
+    }
 }
 
 }  // namespace tyndall::radiosity

@@ -32,8 +32,12 @@ class ElementMesh {
     SampleId middle(ZoneId zone, int i, int j);
     SampleId middle(PatchId patch, int i, int j);
 
-    // Bisects longest edges until none is longer than `size` [m].
-    void refine_to(double zone_size, double patch_size, std::size_t max_leaves);
+    // Bisects the longest edges until none is longer than a size, or there are enough leaves.
+    struct InitialSize {
+        double longest_edge = 0.0;           // [m]
+        std::size_t zones = 0, patches = 0;  // leaves
+    };
+    void refine_to(const InitialSize& size);
 
     std::size_t memory() const { return forest_.memory() + samples_.memory(); }
 

@@ -11,6 +11,7 @@ namespace tyndall::radiosity {
 
 using mesh::Forest;
 using mesh::PatchId;
+using mesh::VertexId;
 using mesh::ZoneId;
 using ElementId = mesh::Id<struct ElementTag>;
 

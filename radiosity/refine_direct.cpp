@@ -136,6 +136,9 @@ RefineResult DirectRefiner::refine(const Importance& importance, double goal,
             if (forest[p].longest_edge > limits.smallest_edge)
                 candidates.push_back({share, p.value, false});
         }
+        if (getenv("TYD"))
+            fprintf(stderr, "direct: leaves %zu err %.5f goal %.5f\n", mesh_.leaf_count(),
+                    std::sqrt(result.squared_error), std::sqrt(goal));
         if (first == 0.0) first = result.squared_error;
         const double gone = first > goal && result.squared_error > 0.0
                                 ? std::log(first / result.squared_error) / std::log(first / goal)

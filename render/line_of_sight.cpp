@@ -20,7 +20,14 @@ using radiosity::none;
 using radiosity::PatchId;
 using radiosity::ZoneId;
 
-enum Part { emission, surfaces_direct, surfaces_indirect, single_scattering, multiple_scattering, parts };
+enum Part {
+    emission,
+    surfaces_direct,
+    surfaces_indirect,
+    single_scattering,
+    multiple_scattering,
+    parts
+};
 
 constexpr const char* part_names[parts] = {"emission", "surfaces_direct", "surfaces_indirect",
                                            "single_scattering", "multiple_scattering"};
@@ -41,14 +48,16 @@ class LineOfSight {
         seen.radiance.assign(parts * bands_, 0.0);
         seen.transmittance.assign(bands_, 1.0);
         seen.depth = std::numeric_limits<double>::infinity();
-        const auto end = mesh::walk(e_.mesh, ray, start, [&](mesh::TetId tet, double t_in, double t_out) {
-            const auto medium = e_.solid(tet) ? none : e_.medium_of(tet);
-            if (medium == none) return true;
-            return mesh::descend(s_.forest, mesh::root_zone(tet), ray, t_in, t_out, mesh::at_leaves,
-                                 [&](ZoneId zone, double s_in, double s_out) {
-                                     return cross(ray, e_.media[medium], zone, s_in, s_out, seen);
-                                 });
-        });
+        const auto end =
+            mesh::walk(e_.mesh, ray, start, [&](mesh::TetId tet, double t_in, double t_out) {
+                const auto medium = e_.solid(tet) ? none : e_.medium_of(tet);
+                if (medium == none) return true;
+                return mesh::descend(s_.forest, mesh::root_zone(tet), ray, t_in, t_out,
+                                     mesh::at_leaves, [&](ZoneId zone, double s_in, double s_out) {
+                                         return cross(ray, e_.media[medium], zone, s_in, s_out,
+                                                      seen);
+                                     });
+            });
         if (end.arrival == mesh::Arrival::struck)
             strike(ray, end, seen);
         else if (end.arrival == mesh::Arrival::left)
@@ -57,16 +66,18 @@ class LineOfSight {
     }
 
   private:
-    bool cross(const mesh::Ray& ray, const radiosity::MediumOptics& optics, ZoneId zone, double t_in,
-               double t_out, Seen& seen) const {
-        const Point in = ray.origin + t_in * ray.direction, out = ray.origin + t_out * ray.direction;
+    bool cross(const mesh::Ray& ray, const radiosity::MediumOptics& optics, ZoneId zone,
+               double t_in, double t_out, Seen& seen) const {
+        const Point in = ray.origin + t_in * ray.direction,
+                    out = ray.origin + t_out * ray.direction;
         double most = 0.0;
         for (std::size_t b = 0; b < bands_; ++b) {
             const auto w = radiosity::segment_weights(optics.extinction[b] * (t_out - t_in));
             double& transmittance = seen.transmittance[b];
             const auto gain = [&](Part part, double at_in, double at_out) {
                 seen.radiance[part * bands_ + b] +=
-                    transmittance * (w.front * std::max(0.0, at_in) + w.back * std::max(0.0, at_out));
+                    transmittance *
+                    (w.front * std::max(0.0, at_in) + w.back * std::max(0.0, at_out));
             };
             const double a = optics.albedo[b];
             const Affine& direct = s_.direct.at(zone, b);
@@ -102,8 +113,8 @@ class LineOfSight {
     std::size_t bands_;
 };
 
-// Where rays from the eye enter the mesh: the eye's own tet, or, from outside the hull, the point where
-// the ray meets it.
+// Where rays from the eye enter the mesh: the eye's own tet, or, from outside the hull, the point
+// where the ray meets it.
 struct Entry {
     mesh::TetId tet;
     double distance = 0.0;
@@ -130,7 +141,8 @@ Image blank(const Camera& camera, std::size_t bands) {
     image.width = camera.width;
     image.height = camera.height;
     const auto add = [&](const char* name, std::size_t channels) {
-        image.layers.push_back({name, channels, std::vector<float>(image.width * image.height * channels)});
+        image.layers.push_back(
+            {name, channels, std::vector<float>(image.width * image.height * channels)});
     };
     add("beauty", bands);
     for (const char* name : part_names) add(name, bands);
@@ -169,12 +181,14 @@ Image line_of_sight(const radiosity::Solution& solution, const Camera& camera,
                 // Jitter inside each cell of the grid turns what aliasing is left into noise.
                 const auto h = radiosity::hash_seed(options.seed + pixel, k);
                 const double u = (double(k % grid) + 0x1p-32 * double(h >> 32)) / double(grid);
-                const double v = (double(k / grid) + 0x1p-32 * double(h & 0xffffffffu)) / double(grid);
+                const double v =
+                    (double(k / grid) + 0x1p-32 * double(h & 0xffffffffu)) / double(grid);
                 mesh::Ray ray = camera.ray(double(x) + u, double(y) + v);
                 const Entry entry = entry_of(enclosure.mesh, ray, eye);
                 if (!entry.tet.valid() || enclosure.solid(entry.tet)) {
                     for (std::size_t b = 0; b < bands; ++b) {
-                        sum[emission * bands + b] += entry.tet.valid() ? 0.0 : enclosure.environment[b];
+                        sum[emission * bands + b] +=
+                            entry.tet.valid() ? 0.0 : enclosure.environment[b];
                         sum[parts * bands + b] += 1.0;
                     }
                     continue;
@@ -182,7 +196,8 @@ Image line_of_sight(const radiosity::Solution& solution, const Camera& camera,
                 ray.origin += entry.distance * ray.direction;
                 line.look(ray, {entry.tet}, seen);
                 for (std::size_t n = 0; n < parts * bands; ++n) sum[n] += seen.radiance[n];
-                for (std::size_t b = 0; b < bands; ++b) sum[parts * bands + b] += seen.transmittance[b];
+                for (std::size_t b = 0; b < bands; ++b)
+                    sum[parts * bands + b] += seen.transmittance[b];
                 depth = std::min(depth, entry.distance + seen.depth);
             }
             for (std::size_t b = 0; b < bands; ++b) {
@@ -199,7 +214,8 @@ Image line_of_sight(const radiosity::Solution& solution, const Camera& camera,
             image.layers[2 + parts].values[pixel] = static_cast<float>(depth);
         }
         const std::size_t done = ++rows_done;
-        if (progress && !progress({"picture", double(done) / double(camera.height), 0, 0.0})) stop = true;
+        if (progress && !progress({"picture", double(done) / double(camera.height), 0, 0.0}))
+            stop = true;
     });
     return image;
 }

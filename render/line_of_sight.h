@@ -10,9 +10,10 @@
 namespace tyndall::render {
 
 // Purpose: a picture of a solution, with the parts that make it up as layers:
-//   beauty = emission + surfaces_direct + surfaces_indirect + single_scattering + multiple_scattering
-//   and transmittance (of the medium in front of what is seen), depth [m] (infinity: nothing hit).
-// Equation: I = Σ_segments T ∫ κ e^{−κs} J ds + T I_surface, J and I linear in each leaf.           (4)
+//   beauty = emission + surfaces_direct + surfaces_indirect + single_scattering +
+//   multiple_scattering and transmittance (of the medium in front of what is seen), depth [m]
+//   (infinity: nothing hit).
+// Equation: I = Σ_segments T ∫ κ e^{−κs} J ds + T I_surface, J and I linear in each leaf. (4)
 // Anti-aliased: `samples` rays a pixel on a jittered grid, box filter of one pixel.
 // A camera outside the hull looks in through it. Radiances are never negative.
 // Errors: mesh::InputError for a camera inside a solid.

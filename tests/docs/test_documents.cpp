@@ -69,3 +69,8 @@ TEST_CASE("whole scenes in the documents can be read") {
     }
     CHECK(count >= 2);  // the README's and the guide's first
 }
+
+TEST_CASE("the guide's C++ program is the one that tests/install builds and runs") {
+    const std::string program = text_of(root / "tests/install/user.cpp");
+    CHECK(text_of(root / "docs/guide/05-cpp-api.md").find(program) != std::string::npos);
+}
