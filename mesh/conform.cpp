@@ -1,7 +1,6 @@
 // Method: contacts are found on numbered points within a tolerance, so that every plane speaks of
-// the
-//   same points; each plane is then triangulated exactly (conform_exact.h); the result is checked
-//   exactly, and conformed once more where rounding or a near miss left a crossing.
+//   the same points; each plane is then triangulated exactly (conform_exact.h); the result is
+//   checked exactly, and conformed once more where rounding or a near miss left a crossing.
 #include "mesh/conform.h"
 
 #include <algorithm>
@@ -152,6 +151,7 @@ ConformingComplex conform(std::span<const Polygon> polygons, const ConformOption
     double tolerance = options.tolerance * check_corners(polygons, options.tolerance);
     auto soup = soup_of(polygons, tolerance);
     auto facets = cut(soup);
+    const auto first = facets.size();
     constexpr int rounds = 4;
     for (int round = 0;; ++round) {
         const auto corners = corners_of(facets);
@@ -159,7 +159,9 @@ ConformingComplex conform(std::span<const Polygon> polygons, const ConformOption
         if (crossings.empty()) {
             break;
         }
-        if (round == rounds) {
+        // Nearly parallel sheets can shatter each other: no use in going on.
+        const bool shattered = facets.size() > 1000 + 4 * first;
+        if (round == rounds || shattered) {
             const auto [i, j] = crossings.front();
             throw_crossing(polygons, facets[i].owners, facets[j].owners,
                            soup.at(facets[i].corners[0]));

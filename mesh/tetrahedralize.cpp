@@ -36,8 +36,8 @@ std::vector<Attempt> attempts(std::size_t facets) {
     const double seconds = 6.0 + 1e-3 * static_cast<double>(facets);
     return {{fmt::format("pq2.0S{}Q", points), seconds},
             {fmt::format("pq2.0MS{}Q", points), seconds},
-            {"pQ", 1e9},
-            {"pMQ", 1e9},
+            {"pQ", 3.0 * seconds},
+            {"pMQ", 3.0 * seconds},
             {"pYMQ", 1e9}};
 }
 
