@@ -14,7 +14,7 @@ namespace {
 
 // How the squared error goal is shared out; the rest is for the noise of rows and gathers.
 constexpr double direct_share = 0.5;
-constexpr double indirect_share = 0.25;
+constexpr double indirect_share = 0.5;
 
 // A gather's zone may stand for its leaves when it is no longer than this many spacings of its
 // rays.
@@ -187,7 +187,7 @@ void Loop::rate(const CoarseSolution& coarse) {
         return;
     }
     const Fields sources = coarse_sources(coarse);
-    const GatherScene scene{*enclosure_, mesh_.forest(), sources, 0.0};
+    const GatherScene scene(*enclosure_, mesh_.forest(), sources);
     constexpr int across = 32, down = 24;
     Spectrum radiance(e.bands);
     double sum = 0.0;

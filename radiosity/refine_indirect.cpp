@@ -71,8 +71,8 @@ RefineResult IndirectRefiner::refine(Fields sources, double detail, const Import
         std::vector<SampleId> ids;
         collect(zones, ids);
         collect(patches, ids);
-        result.rays +=
-            mesh_.samples().gather_at(ids, {enclosure_, forest, sources, detail}, points_, seed_);
+        result.rays += mesh_.samples().gather_at(
+            ids, GatherScene(enclosure_, forest, sources, detail), points_, seed_);
         if (getenv("TYD"))
             fprintf(stderr, "indirect: frontier %zu zones %zu patches, rays %zu leaves %zu\n",
                     zones.size(), patches.size(), result.rays, mesh_.leaf_count());
