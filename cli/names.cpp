@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "cli/suggestion.h"
+#include "cli/toml_text.h"
 
 namespace tyndall::cli {
 

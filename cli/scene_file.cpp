@@ -9,14 +9,13 @@
 #include <glm/geometric.hpp>
 #include <iterator>
 #include <numbers>
-#include <sstream>
 
 #include "cli/overrides.h"
 #include "cli/scene_keys.h"
 #include "cli/scene_optics.h"
 #include "cli/scene_surfaces.h"
 #include "cli/settings.h"
-#include "cli/suggestion.h"
+#include "cli/toml_text.h"
 #include "mesh/input_error.h"
 
 namespace tyndall::cli {
@@ -128,12 +127,6 @@ bool emits_light(const radiosity::Scene& scene) {
     return false;
 }
 
-std::string print(const toml::table& root) {
-    std::ostringstream stream;
-    stream << toml::toml_formatter(root) << "\n";
-    return stream.str();
-}
-
 }  // namespace
 
 SceneFile read_scene_file(const std::filesystem::path& path,
@@ -162,7 +155,7 @@ SceneFile read_scene_file(const std::filesystem::path& path,
     file.view_camera = view_camera(root, settings.camera, cameras);
     if (!emits_light(file.scene))
         file.notes.push_back("nothing gives light: the picture will be black");
-    file.effective_toml = print(table);
+    file.effective_toml = toml_text(table);
     return file;
 }
 

@@ -4,25 +4,9 @@
 
 #include <algorithm>
 
-namespace tyndall::cli {
+#include "cli/nearest_name.h"
 
-// Optimal string alignment distance: Levenshtein's table with swaps of neighbours.
-std::size_t edit_distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> before, above(b.size() + 1), row(b.size() + 1);
-    for (std::size_t j = 0; j <= b.size(); ++j) above[j] = j;
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        row[0] = i;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t replaced = above[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
-            row[j] = std::min({replaced, above[j] + 1, row[j - 1] + 1});
-            const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
-            if (swapped) row[j] = std::min(row[j], before[j - 2] + 1);
-        }
-        before = above;
-        above = row;
-    }
-    return above[b.size()];
-}
+namespace tyndall::cli {
 
 std::string list_of(std::span<const std::string_view> names, std::string_view link) {
     std::string text;
@@ -33,27 +17,26 @@ std::string list_of(std::span<const std::string_view> names, std::string_view li
     return text;
 }
 
+std::optional<std::string_view> nearest(std::string_view unknown,
+                                        std::span<const std::string_view> known) {
+    const std::vector<std::string> names(known.begin(), known.end());
+    if (const auto near = nearest_name(std::string(unknown), names)) {
+        return *std::find(known.begin(), known.end(), *near);
+    }
+    for (const std::string_view name : known) {  // fov → fov_x, rotation → rotate
+        const bool inside = unknown.find(name) != unknown.npos || name.find(unknown) != name.npos;
+        if (inside && unknown.size() > 2 && name.size() > 2) return name;
+        const auto end = std::mismatch(unknown.begin(), unknown.end(), name.begin(), name.end());
+        const auto shared = static_cast<std::size_t>(end.first - unknown.begin());
+        if (shared >= 3 && 2 * shared >= std::max(unknown.size(), name.size())) return name;
+    }
+    return std::nullopt;
+}
+
 std::string suggest(std::string_view unknown, std::span<const std::string_view> known) {
     if (known.empty()) return "";
-    std::string_view nearest;
-    std::size_t least = ~std::size_t(0);
-    for (const std::string_view name : known) {
-        const std::size_t distance = edit_distance(unknown, name);
-        if (distance < least) {
-            least = distance;
-            nearest = name;
-        }
-    }
-    const std::size_t longer = std::max(unknown.size(), nearest.size());
-    if (least <= std::max<std::size_t>(1, longer / 3) && least < longer) {
-        return fmt::format("Did you mean \"{}\"?", nearest);
-    }
-    for (const std::string_view name : known) {
-        const bool inside = unknown.find(name) != unknown.npos || name.find(unknown) != name.npos;
-        if (inside && unknown.size() > 2 && name.size() > 2) {
-            return fmt::format("Did you mean \"{}\"?", name);
-        }
-    }
+    if (const auto near = nearest(unknown, known))
+        return fmt::format("Did you mean \"{}\"?", *near);
     return fmt::format("Known here: {}.", list_of(known));
 }
 

@@ -1,6 +1,7 @@
 // "Did you mean …?": the known name nearest to one that is not known.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -8,11 +9,13 @@
 
 namespace tyndall::cli {
 
-// Edits (insert, delete, replace, swap of neighbours) that turn a into b. Cost: O(|a| |b|).
-std::size_t edit_distance(std::string_view a, std::string_view b);
+// The known name nearest to `unknown`: at most a third of its letters off, or one holds the other,
+// or they share half their letters from the first on. None if nothing is near.
+std::optional<std::string_view> nearest(std::string_view unknown,
+                                        std::span<const std::string_view> known);
 
-// A sentence for an error: `Did you mean "reflectance"?` if a known name is near (a third of its
-// letters, or one contains the other), else `Known here: a, b, c.`; empty if nothing is known.
+// A sentence for an error: `Did you mean "reflectance"?` if a known name is near, else
+// `Known here: a, b, c.`; empty if nothing is known.
 std::string suggest(std::string_view unknown, std::span<const std::string_view> known);
 std::string suggest(std::string_view unknown, const std::vector<std::string>& known);
 

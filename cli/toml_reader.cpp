@@ -5,15 +5,24 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <sstream>
 
 #include "cli/suggestion.h"
+#include "cli/toml_text.h"
 #include "mesh/input_error.h"
 
 namespace tyndall::cli {
 namespace {
 
 constexpr double largest = 1e30;  // the end of a range without an end
+
+// "180", "1e9".
+std::string short_text(double value) {
+    std::string text = fmt::format("{:g}", value);
+    const auto exponent = text.find("e+");
+    if (exponent == text.npos) return text;
+    return text.substr(0, exponent + 1) +
+           text.substr(std::min(text.find_first_not_of('0', exponent + 2), text.size()));
+}
 
 }  // namespace
 
@@ -36,47 +45,19 @@ bool Range::holds(double value) const {
 
 std::string Range::text() const {
     const std::string from =
-        low_open ? fmt::format("above {}", low) : fmt::format("of {} or more", low);
-    const std::string to =
-        high_open ? fmt::format("below {}", high) : fmt::format("of {} or less", high);
+        low_open ? "above " + short_text(low) : "of " + short_text(low) + " or more";
+    const std::string to = high_open ? "below " + short_text(high) : "up to " + short_text(high);
     const bool bounded_below = low > -largest, bounded_above = high < largest;
     if (!bounded_below) return bounded_above ? to : "that is finite";
     if (!bounded_above) return from;
-    if (!low_open && !high_open) return fmt::format("from {} to {}", low, high);
-    return low_open ? fmt::format("{} and {}", from, to)
-                    : fmt::format("of {} or more, {}", low, to);
+    if (low_open) return from + " and " + to;
+    return "from " + short_text(low) + (high_open ? " and " + to : " to " + short_text(high));
 }
 
 std::string place_of(const toml::source_region& source) {
     const std::string path = source.path ? *source.path : std::string();
     if (path.starts_with("--set ") || source.begin.line == 0) return path;
     return fmt::format("{}:{}:{}", path, source.begin.line, source.begin.column);
-}
-
-std::string text_of(const toml::node& node) {
-    std::ostringstream stream;
-    node.visit([&](const auto& value) {
-        using Node = std::remove_cvref_t<decltype(value)>;
-        if constexpr (std::is_same_v<Node, toml::table>) {
-            stream << toml::toml_formatter(toml::table{{"v", value}});
-        } else {
-            stream << toml::toml_formatter(value);
-        }
-    });
-    std::string text = stream.str();
-    if (node.is_table()) return "a table";
-    std::string line;  // white space folded: arrays are printed over several lines
-    for (const char c : text) {
-        const bool space = c == '\n' || c == ' ' || c == '\t';
-        if (!space || (!line.empty() && line.back() != ' ')) line += space ? ' ' : c;
-    }
-    constexpr std::size_t longest = 60;
-    if (line.size() > longest) {
-        std::size_t end = longest;  // never inside a UTF-8 sequence
-        while (end > 0 && (static_cast<unsigned char>(line[end]) & 0xC0) == 0x80) --end;
-        line = line.substr(0, end) + "…";
-    }
-    return line;
 }
 
 std::string_view type_of(const toml::node& node) {
@@ -157,15 +138,17 @@ double TableReader::number_at(const toml::node& node, const std::string& what,
     const auto split = what.find(" of ");  // "reflectance 1.3 of material …"
     const std::string subject = fmt::format("{} {}{}", what.substr(0, split), *value,
                                             split == what.npos ? "" : what.substr(split));
+    const bool too_large = std::isfinite(*value) && std::abs(*value) >= largest;
     std::string wrong = "is not a value " + range.text();
     if (!std::isfinite(*value))
         wrong = "is not finite";
-    else if (std::abs(*value) >= largest)
-        wrong = fmt::format("is larger than {}", largest);
+    else if (too_large)
+        wrong = "is beyond " + short_text(largest);
     else if (!range.low_open && !range.high_open && range.high < largest && range.low > -largest)
-        wrong = fmt::format("is outside {} to {}", range.low, range.high);
+        wrong = "is outside " + short_text(range.low) + " to " + short_text(range.high);
     fail_at(place_of(node.source()),
-            fmt::format("{} {}. Give a value {}.", subject, wrong, range.text()));
+            fmt::format("{} {}. Give a {}.", subject, wrong,
+                        too_large ? "smaller one" : "value " + range.text()));
 }
 
 double TableReader::number(std::string_view key, const Range& range) const {
@@ -195,8 +178,11 @@ std::size_t TableReader::choice(std::string_view key,
     const std::string value = text(key);
     const auto found = std::find(names.begin(), names.end(), value);
     if (found == names.end()) {
-        fail(key, fmt::format("{} is \"{}\", which is not one of: {}. {}", what(key), value,
-                              list_of(names, "or"), suggest(value, names)));
+        const auto near = nearest(value, names);
+        fail(key,
+             fmt::format("{} is \"{}\", which is not one of: {}. {}", what(key), value,
+                         list_of(names, "or"),
+                         near ? fmt::format("Did you mean \"{}\"?", *near) : "Give one of them."));
     }
     return static_cast<std::size_t>(found - names.begin());
 }
@@ -280,7 +266,7 @@ std::vector<const toml::table*> TableReader::tables(std::string_view key) const 
     std::vector<const toml::table*> result;
     if (!has(key)) return result;
     const toml::node& found = node(key);
-    const std::string expected = fmt::format("an array of tables, [[{}]],", key);
+    const std::string expected = fmt::format("an array of tables ([[{}]])", key);
     if (!found.is_array()) fail_type(found, what(key), expected);
     for (const toml::node& element : *found.as_array()) {
         if (!element.is_table()) fail_type(element, "an element of " + what(key), "a table");

@@ -50,8 +50,6 @@ inline constexpr Range coordinate{-1e9, 1e9};
 
 // Where a node of a parsed file stands.
 std::string place_of(const toml::source_region& source);
-// The value as TOML, shortened to one line.
-std::string text_of(const toml::node& node);
 // "a string", "an array", …
 std::string_view type_of(const toml::node& node);
 

@@ -12,7 +12,7 @@ namespace tyndall::mesh {
 // A triangle on which a surface, an opening or the hull lies; it separates two tets.
 struct BaseFacet {
     std::array<VertexId, 3> corners;  // counter-clockwise seen from its front
-    FacetId source;  // facet of the conforming complex it lies on; none on the hull
+    FacetId source;  // facet of the conforming complex its centroid lies on
     Opacity opacity = Opacity::opaque;
     std::array<TetId, 2> tets;  // on its front and on its back side; none beyond the hull
 };
@@ -30,7 +30,7 @@ struct BaseMesh {
     Point hull_min{0}, hull_max{0};  // the box that the mesh fills [m]
 };
 
-// Fills neighbours' regions: flood fill from tet to tet where no facet lies between.
+// Fills regions and region_count: flood fill from tet to tet where no facet lies between.
 void find_regions(BaseMesh& mesh);
 
 // The tet that holds x, by walking from `start` and, should that fail, by search; none outside the

@@ -180,18 +180,26 @@ bool looks_into(const BaseMesh& mesh, const Face& face, const std::array<VertexI
 
 class FacetBuilder {
   public:
-    FacetBuilder(const ConformingComplex& complex, const std::vector<Face>& faces, BaseMesh& mesh)
-        : complex_(complex), faces_(faces), mesh_(mesh), areas_(complex.facets.size(), 0.0) {
+    FacetBuilder(const ConformingComplex& complex, const FacetGroups& groups,
+                 const std::vector<Face>& faces, BaseMesh& mesh)
+        : complex_(complex),
+          groups_(groups),
+          faces_(faces),
+          mesh_(mesh),
+          areas_(groups.size(), 0.0) {
         mesh_.tet_facets.assign(mesh_.tets.size(), {});
     }
 
-    void add(std::array<VertexId, 3> corners, FacetId source) {
-        const auto normal = source_area(source);
-        auto along = area_of(mesh_.points, corners);
-        if (glm::dot(along, normal) < 0.0) {
+    void add(std::array<VertexId, 3> corners, std::size_t group) {
+        const auto centroid = (mesh_.points[corners[0].value] + mesh_.points[corners[1].value] +
+                               mesh_.points[corners[2].value]) /
+                              3.0;
+        const auto source = groups_.member_at(group, centroid);
+        const auto along = area_of(mesh_.points, corners);
+        if (glm::dot(along, source_area(source)) < 0.0) {
             std::swap(corners[1], corners[2]);
         }
-        areas_[source.value] += glm::length(along);
+        areas_[group] += glm::length(along);
         const Face wanted{sorted(corners[0].value, corners[1].value, corners[2].value), 0, 0};
         const auto found = std::lower_bound(faces_.begin(), faces_.end(), wanted);
         if (found == faces_.end() || found->key != wanted.key || std::next(found) == faces_.end() ||
@@ -217,14 +225,14 @@ class FacetBuilder {
     }
 
     void check_areas(double diagonal) const {
-        for (std::size_t f = 0; f < areas_.size(); ++f) {
-            const double wanted = glm::length(source_area(FacetId(f)));
+        for (std::size_t g = 0; g < areas_.size(); ++g) {
+            const double wanted = groups_.area(g);
             // Slivers: coordinates are good to 1e-16 diagonals, areas to that times a diagonal.
             const double allowed = 1e-9 * wanted + 1e-13 * diagonal * diagonal;
-            if (std::abs(areas_[f] - wanted) > allowed) {
-                throw Fault(fmt::format("facet {} has {:.9g} m^2 instead of {:.9g} m^2", f,
-                                        areas_[f], wanted),
-                            FacetId(f));
+            if (std::abs(areas_[g] - wanted) > allowed) {
+                throw Fault(fmt::format("a surface came out with {:.9g} m^2 instead of {:.9g} m^2",
+                                        areas_[g], wanted),
+                            groups_.members(g).front());
             }
         }
     }
@@ -240,19 +248,20 @@ class FacetBuilder {
     }
 
     const ConformingComplex& complex_;
+    const FacetGroups& groups_;
     const std::vector<Face>& faces_;
     BaseMesh& mesh_;
-    std::vector<double> areas_;  // of the output triangles, by source [m^2]
+    std::vector<double> areas_;  // of the output triangles, by group [m^2]
 };
 
-void add_facets(const Output& output, const ConformingComplex& complex,
+void add_facets(const Output& output, const ConformingComplex& complex, const FacetGroups& groups,
                 const std::vector<VertexId>& numbers, const std::vector<Face>& faces,
                 BaseMesh& mesh) {
-    // In the order of their sources, then corners: not in TetGen's.
+    // In the order of their groups, then corners: not in TetGen's.
     std::vector<std::pair<std::uint32_t, std::array<VertexId, 3>>> found;
     for (std::size_t i = 0; i < output.faces.size(); ++i) {
         const auto marker = output.face_markers[i];
-        if (marker >= 1 && static_cast<std::size_t>(marker) <= complex.facets.size()) {
+        if (marker >= 1 && static_cast<std::size_t>(marker) <= groups.size()) {
             std::array<VertexId, 3> corners;
             for (int k = 0; k < 3; ++k) {
                 corners[k] = numbers[output.faces[i][k]];
@@ -266,16 +275,17 @@ void add_facets(const Output& output, const ConformingComplex& complex,
         }
     }
     std::sort(found.begin(), found.end());
-    FacetBuilder builder(complex, faces, mesh);
-    for (const auto& [source, corners] : found) {
-        builder.add(corners, FacetId(source));
+    FacetBuilder builder(complex, groups, faces, mesh);
+    for (const auto& [group, corners] : found) {
+        builder.add(corners, group);
     }
     builder.check_areas(glm::distance(mesh.hull_min, mesh.hull_max));
 }
 
 }  // namespace
 
-BaseMesh build_base_mesh(const Output& output, const ConformingComplex& complex, const Hull& hull) {
+BaseMesh build_base_mesh(const Output& output, const ConformingComplex& complex,
+                         const FacetGroups& groups, const Hull& hull) {
     if (output.tets.empty()) {
         throw Fault("there are no tetrahedra");
     }
@@ -287,7 +297,7 @@ BaseMesh build_base_mesh(const Output& output, const ConformingComplex& complex,
     orient(mesh, hull);
     const auto faces = sorted_faces(mesh);
     link_neighbours(faces, hull, mesh);
-    add_facets(output, complex, numbers, faces, mesh);
+    add_facets(output, complex, groups, numbers, faces, mesh);
     find_regions(mesh);
     return mesh;
 }

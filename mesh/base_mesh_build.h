@@ -6,6 +6,7 @@
 
 #include "mesh/base_mesh.h"
 #include "mesh/conform.h"
+#include "mesh/facet_groups.h"
 #include "mesh/tetgen_process.h"
 
 namespace tyndall::mesh::tetgen {
@@ -23,13 +24,14 @@ class Fault : public std::runtime_error {
     FacetId facet;  // where, if one facet shows it
 };
 
-// Purpose: BaseMesh from TetGen's output, where facet i of the complex has the marker i + 1. Tets
+// Purpose: BaseMesh from TetGen's output, where the facets of group i have the marker i + 1. Tets
 // in Hilbert
 //   order of their centroids, points in order of first use.
-// Checked: tets > 0, positive orientation, volume of the hull, area and marker of every facet, at
+// Checked: tets > 0, positive orientation, volume of the hull, area of every group, at
 // most
 //   two tets a face, one only on the hull.
 // Errors: Fault. Cost: O(n log n).
-BaseMesh build_base_mesh(const Output& output, const ConformingComplex& complex, const Hull& hull);
+BaseMesh build_base_mesh(const Output& output, const ConformingComplex& complex,
+                         const FacetGroups& groups, const Hull& hull);
 
 }  // namespace tyndall::mesh::tetgen

@@ -129,13 +129,16 @@ std::vector<Owner> owners_of(const Soup& soup, const PlaneWork& work,
 
 void triangulate_plane(Soup& soup, const Plane& plane, PlaneWork& work,
                        std::vector<Labelled>& facets) {
+    if (work.pieces.size() == 1 && work.points.size() == 3) {  // most of a triangle mesh
+        const auto& loop = soup.pieces[work.pieces[0]].loop;
+        facets.push_back({{loop[0], loop[1], loop[2]}, soup.pieces[work.pieces[0]].owners});
+        return;
+    }
     PlanarSoup flat;
     for (const auto i : work.points) {
         flat.points.push_back(plane.flatten(soup.at(i)));
     }
-    if (work.pieces.size() != 1 || work.points.size() != 3) {
-        split_segments(flat.points, soup.tolerance, work);
-    }
+    split_segments(flat.points, soup.tolerance, work);
     for (const auto& [ends, loops] : work.segments) {
         flat.segments.push_back({ends.first, ends.second});
         flat.segment_loops.push_back(loops);
@@ -225,6 +228,30 @@ std::vector<std::array<Index, 3>> corners_of(const std::vector<Labelled>& facets
     return result;
 }
 
+bool is_flat(const Soup& soup, const std::vector<Index>& loop) {
+    const auto plane = fit_plane(soup, loop);
+    return std::all_of(loop.begin(), loop.end(), [&](Index i) {
+        return std::abs(plane->above(soup.at(i))) <= soup.tolerance;
+    });
+}
+
+// A polygon whose corners are a little off its plane goes on as triangles.
+void add_triangles(Soup& soup, const Piece& piece) {
+    const auto plane = fit_plane(soup, piece.loop);
+    PlanarSoup flat;
+    const auto n = static_cast<Index>(piece.loop.size());
+    for (Index k = 0; k < n; ++k) {
+        flat.points.push_back(plane->flatten(soup.at(piece.loop[k])));
+        flat.segments.push_back({k, (k + 1) % n});
+        flat.segment_loops.push_back({0});
+    }
+    for (const auto& [a, b, c] : triangulate(flat).triangles) {
+        if (std::max({a, b, c}) < n) {
+            soup.pieces.push_back({{piece.loop[a], piece.loop[b], piece.loop[c]}, piece.owners, 0});
+        }
+    }
+}
+
 Soup soup_of(std::span<const Polygon> polygons, double tolerance) {
     Soup soup{tolerance, PointWeld(tolerance), {}, {}};
     for (Index p = 0; p < polygons.size(); ++p) {
@@ -235,7 +262,11 @@ Soup soup_of(std::span<const Polygon> polygons, double tolerance) {
         clean_loop(piece.loop);
         piece.owners.push_back({p, false});
         check_loop(soup, piece.loop, polygons[p], p);
-        soup.pieces.push_back(std::move(piece));
+        if (is_flat(soup, piece.loop)) {
+            soup.pieces.push_back(std::move(piece));
+        } else {
+            add_triangles(soup, piece);
+        }
     }
     return soup;
 }
@@ -266,7 +297,7 @@ ConformingComplex conform(std::span<const Polygon> polygons, const ConformOption
     double tolerance = options.tolerance * check_corners(polygons, options.tolerance);
     auto soup = soup_of(polygons, tolerance);
     auto facets = cut(soup);
-    constexpr int rounds = 3;
+    constexpr int rounds = 4;
     for (int round = 0;; ++round) {
         const auto corners = corners_of(facets);
         const auto crossings = crossing_pairs(soup.weld.points(), corners);
@@ -278,11 +309,13 @@ ConformingComplex conform(std::span<const Polygon> polygons, const ConformOption
             throw_crossing(polygons, facets[i].owners, facets[j].owners,
                            soup.at(facets[i].corners[0]));
         }
-        tolerance *= 2.0;
+        tolerance *= 4.0;
         soup = soup_of(soup, facets, tolerance);
         facets = cut(soup);
     }
-    return finish(soup, polygons, facets);
+    auto complex = finish(soup, polygons, facets);
+    check_areas(complex, polygons, tolerance);
+    return complex;
 }
 
 }  // namespace tyndall::mesh

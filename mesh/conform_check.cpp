@@ -127,6 +127,48 @@ void check_loop(const Soup& soup, const std::vector<Index>& loop, const Polygon&
     }
 }
 
+namespace {
+
+glm::dvec3 area_vector(std::span<const Point> corners) {
+    glm::dvec3 sum(0.0);
+    for (std::size_t i = 1; i + 1 < corners.size(); ++i) {
+        sum += glm::cross(corners[i] - corners[0], corners[i + 1] - corners[0]);
+    }
+    return 0.5 * sum;
+}
+
+}  // namespace
+
+void check_areas(const ConformingComplex& complex, std::span<const Polygon> polygons,
+                 double tolerance) {
+    std::vector<double> areas(polygons.size(), 0.0);
+    for (const auto& facet : complex.facets) {
+        const Point corners[] = {complex.points[facet.corners[0].value],
+                                 complex.points[facet.corners[1].value],
+                                 complex.points[facet.corners[2].value]};
+        for (const auto polygon : facet.polygons) {
+            areas[polygon.value] += glm::length(area_vector(corners));
+        }
+    }
+    for (std::size_t p = 0; p < polygons.size(); ++p) {
+        const auto& corners = polygons[p].corners;
+        const double wanted = glm::length(area_vector(corners));
+        double boundary = glm::distance(corners.back(), corners.front());
+        for (std::size_t k = 0; k + 1 < corners.size(); ++k) {
+            boundary += glm::distance(corners[k], corners[k + 1]);
+        }
+        // Points move by a few tolerances; a polygon within `flatness` of flat becomes triangles.
+        const double allowed = 8.0 * tolerance * boundary + 1e-8 * wanted;
+        if (std::abs(areas[p] - wanted) > allowed) {
+            throw InputError(
+                fmt::format("{} covers {:.9g} m^2, but its boundary goes around {:.9g} m^2, near "
+                            "{}: the boundary "
+                            "overlaps itself. Split the polygon.",
+                            label(polygons[p], p), areas[p], wanted, text(corners[0])));
+        }
+    }
+}
+
 void throw_crossing(std::span<const Polygon> polygons, std::span<const Owner> first,
                     std::span<const Owner> second, Point where) {
     const auto p = first.front().polygon, q = second.front().polygon;

@@ -34,7 +34,7 @@ class TemporaryFile {
     TemporaryFile() : file_(std::tmpfile()) {
         if (!file_) {
             throw std::runtime_error(fmt::format(
-                "cannot make a temporary file for TetGen ({}). Free some space or set TMPDIR.",
+                "cannot make a temporary file for TetGen ({}). Free some space in /tmp.",
                 std::strerror(errno)));
         }
         fcntl(descriptor(), F_SETFD, FD_CLOEXEC);

@@ -135,6 +135,9 @@ int main(int argc, char** argv) {
         code = write_output(out, result) ? 0 : static_cast<int>(refused);
     } catch (const std::bad_alloc&) {
         code = no_memory;
+    } catch (int reason) {
+        code = reason == 1 ? no_memory : refused;  // terminatetetgen's numbers
+        std::fprintf(stderr, "TetGen's reason %d\n", reason);
     } catch (...) {
         code = refused;
     }

@@ -13,6 +13,7 @@
 #include "mesh/base_mesh_build.h"
 #include "mesh/input_error.h"
 #include "mesh/tetgen_process.h"
+#include "mesh/trouble.h"
 
 namespace tyndall::mesh {
 
@@ -20,13 +21,18 @@ namespace {
 
 using namespace tetgen;
 
-// Mild quality first: bisection never mends slivers. It does not always come to an end on nearly
-// coplanar facets, hence its short time. Then facets left as they are.
 struct Attempt {
-    const char* switches;
+    std::string switches;
     double seconds;
 };
-constexpr Attempt attempts[] = {{"pq2.0Q", 20.0}, {"pYQ", 1e9}};
+
+// Mild quality first: bisection never mends slivers. Small features and nearly coplanar facets
+// would keep it adding points for ever, so it may add only some (-S), and not take long. Then
+// facets left as they are.
+std::array<Attempt, 2> attempts(std::size_t facets) {
+    return {{{fmt::format("pq2.0S{}Q", 500 + facets / 2), 8.0 + 1e-3 * static_cast<double>(facets)},
+             {"pYQ", 1e9}}};
+}
 
 void check(const ConformingComplex& complex, const TetrahedralizeOptions& options) {
     if (complex.facets.empty()) {
@@ -59,13 +65,13 @@ Hull hull_around(const ConformingComplex& complex, double margin) {
     return {hull.min - grow, hull.max + grow};
 }
 
-Input input_of(const ConformingComplex& complex, const Hull& hull) {
+Input input_of(const ConformingComplex& complex, const FacetGroups& groups, const Hull& hull) {
     Input input;
     input.points = complex.points;
     for (std::size_t f = 0; f < complex.facets.size(); ++f) {
         const auto& corners = complex.facets[f].corners;
         input.triangles.push_back({corners[0].value, corners[1].value, corners[2].value});
-        input.triangle_markers.push_back(static_cast<std::int32_t>(f + 1));
+        input.triangle_markers.push_back(static_cast<std::int32_t>(groups.group(FacetId(f)) + 1));
     }
     const auto first = static_cast<std::uint32_t>(input.points.size());
     for (std::uint32_t corner = 0; corner < 8; ++corner) {
@@ -77,48 +83,24 @@ Input input_of(const ConformingComplex& complex, const Hull& hull) {
         {{0, 2, 6, 4}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 1, 3, 2}, {4, 5, 7, 6}}};
     for (const auto& side : sides) {
         input.quads.push_back({first + side[0], first + side[1], first + side[2], first + side[3]});
-        input.quad_markers.push_back(static_cast<std::int32_t>(complex.facets.size() + 1));
+        input.quad_markers.push_back(static_cast<std::int32_t>(groups.size() + 1));
     }
     return input;
 }
 
-// Where TetGen stumbles: the facets that its own check finds crossing, or none.
+// The facets that TetGen's own check finds crossing, or none.
 std::vector<FacetId> diagnose(const std::filesystem::path& worker, const Input& input,
-                              const ConformingComplex& complex, const Limits& limits) {
+                              const FacetGroups& groups, const Limits& limits) {
     const auto result = run(worker, "pdQ", input, {std::min(limits.seconds, 20.0), limits.bytes});
     std::set<FacetId> facets;
     if (result.outcome == Outcome::done && result.output.tets.empty()) {
         for (const auto marker : result.output.face_markers) {
-            if (marker >= 1 && static_cast<std::size_t>(marker) <= complex.facets.size()) {
-                facets.insert(FacetId(marker - 1));
+            if (marker >= 1 && static_cast<std::size_t>(marker) <= groups.size()) {
+                facets.insert(groups.members(marker - 1).front());
             }
         }
     }
     return {facets.begin(), facets.end()};
-}
-
-std::string describe(const std::vector<FacetId>& facets, const ConformingComplex& complex,
-                     std::span<const Polygon> polygons) {
-    std::set<std::string> names;
-    for (const auto facet : facets) {
-        for (const auto polygon : complex.facets[facet.value].polygons) {
-            const auto& name =
-                polygon.value < polygons.size() ? polygons[polygon.value].name : std::string();
-            names.insert(name.empty() ? fmt::format("polygon {}", polygon.value)
-                                      : fmt::format("\"{}\"", name));
-        }
-    }
-    std::string list;
-    std::size_t listed = 0;
-    for (const auto& name : names) {
-        if (++listed > 6) {
-            list += fmt::format(" and {} more", names.size() - 6);
-            break;
-        }
-        list += (list.empty() ? "" : ", ") + name;
-    }
-    const auto& at = complex.points[complex.facets[facets.front().value].corners[0].value];
-    return fmt::format("{} near ({:.6g}, {:.6g}, {:.6g})", list, at.x, at.y, at.z);
 }
 
 struct Failure {
@@ -134,10 +116,14 @@ class Mesher {
           options_(options),
           worker_(find_worker(options.worker)),
           hull_(hull_around(complex, options.hull_margin)),
-          input_(input_of(complex, hull_)) {}
+          groups_(complex),
+          input_(input_of(complex, groups_, hull_)) {}
 
     // Nothing, and one more failure noted, if this attempt came to no mesh.
     std::optional<BaseMesh> attempt(const Attempt& attempt) {
+        if (!failures_.empty() && remaining() <= 0.0) {
+            return {};
+        }
         const double seconds = std::min(attempt.seconds, remaining());
         const auto result = run(worker_, attempt.switches, input_, {seconds, options_.max_bytes});
         if (result.outcome != Outcome::done) {
@@ -145,7 +131,7 @@ class Mesher {
             return {};
         }
         try {
-            return build_base_mesh(result.output, complex_, hull_);
+            return build_base_mesh(result.output, complex_, groups_, hull_);
         } catch (const Fault& fault) {
             failures_.push_back({Outcome::refused, fault.what(), fault.facet});
             return {};
@@ -168,19 +154,44 @@ class Mesher {
                 "simplify the surfaces.",
                 complex_.facets.size(), options_.max_seconds, last.message));
         }
-        auto where = diagnose(worker_, input_, complex_, {20.0, options_.max_bytes});
-        if (where.empty() && last.facet.valid()) {
-            where.push_back(last.facet);
-        }
         throw InputError(fmt::format(
-            "TetGen cannot mesh these surfaces: {}. {}. Move surfaces that nearly touch apart, or "
+            "TetGen cannot mesh these surfaces: {}. {} Move surfaces that nearly touch apart, or "
             "let them coincide.",
-            last.message,
-            where.empty() ? "No single place was found"
-                          : "Look at " + describe(where, complex_, polygons)));
+            last.message, place(polygons, last.facet)));
     }
 
   private:
+    // The best guess at where: an exact crossing, TetGen's own finding, the facet that failed a
+    // check, the narrowest gap.
+    std::string place(std::span<const Polygon> polygons, FacetId failed) const {
+        const auto trouble = find_trouble(complex_);
+        const auto at = [](Point x) {
+            return fmt::format("({:.6g}, {:.6g}, {:.6g})", x.x, x.y, x.z);
+        };
+        const auto names = [&](std::span<const FacetId> facets) {
+            return names_of(facets, complex_, polygons);
+        };
+        if (trouble && trouble->gap == 0.0) {
+            const FacetId pair[] = {trouble->first, trouble->second};
+            return fmt::format("{} cross or overlap near {}.", names(pair), at(trouble->where));
+        }
+        auto found = diagnose(worker_, input_, groups_, {20.0, options_.max_bytes});
+        if (found.empty() && failed.valid()) {
+            found.push_back(failed);
+        }
+        if (!found.empty()) {
+            const auto corner = complex_.facets[found.front().value].corners[0];
+            return fmt::format("Look at {} near {}.", names(found),
+                               at(complex_.points[corner.value]));
+        }
+        if (trouble) {
+            const FacetId pair[] = {trouble->first, trouble->second};
+            return fmt::format("{} come within {:.3g} m of each other near {}.", names(pair),
+                               trouble->gap, at(trouble->where));
+        }
+        return "No single place was found.";
+    }
+
     double remaining() const {
         const std::chrono::duration<double> used = std::chrono::steady_clock::now() - start_;
         return std::max(options_.max_seconds - used.count(), 0.0);
@@ -190,6 +201,7 @@ class Mesher {
     const TetrahedralizeOptions& options_;
     std::filesystem::path worker_;
     Hull hull_;
+    FacetGroups groups_;
     Input input_;
     std::vector<Failure> failures_;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
@@ -201,7 +213,7 @@ BaseMesh tetrahedralize(const ConformingComplex& complex, std::span<const Polygo
                         const TetrahedralizeOptions& options) {
     check(complex, options);
     Mesher mesher(complex, options);
-    for (const auto& attempt : attempts) {
+    for (const auto& attempt : attempts(complex.facets.size())) {
         if (auto mesh = mesher.attempt(attempt)) {
             return std::move(*mesh);
         }

@@ -10,6 +10,9 @@ namespace {
 
 constexpr double sliver = 1e-12;  // thickness, relative to distance, below which nothing is seen
 constexpr double widest_cone = 0.05;  // cosine beyond which a cone culls nothing worth the test
+// A point on a plane is told to be on one side by a step this large (of the tolerance), if the
+// step's direction is off the plane by more than this slope.
+constexpr double step_size = 0.01, least_slope = 1e-3;
 constexpr std::uint32_t no_polygon = 0xffffffffu;
 
 // Signed distances of a polygon's corners from a plane, those of rounding size set to 0.
@@ -213,9 +216,18 @@ Visibility Occluders::cast_shadow(const View& view, std::uint32_t k,
     const auto& target = view.target;
     HalfSpace plane = planes_[k];
     plane.offset -= glm::dot(plane.normal, view.eye);
-    if (std::abs(plane.offset) <= tolerance_) return Visibility::all;  // seen edge-on
+    Direction shift(0);
+    double facing = plane.offset;  // positive: the point is behind the plane's front
+    if (std::abs(plane.offset) <= tolerance_) {
+        // On the plane: the limit of a point that comes near from inside. Planes through edges that
+        // the point lies on are then spanned by edge and step, the others are the polygon's own.
+        shift = step(plane.normal, target.inside);
+        if (shift == Direction(0)) return Visibility::all;  // seen edge-on
+        facing = -glm::dot(plane.normal, shift);
+        plane.offset = 0.0;
+    }
     double turn = 1.0;
-    if (plane.offset < 0.0) plane = {-plane.normal, -plane.offset}, turn = -1.0;
+    if (facing < 0.0) plane = {-plane.normal, -plane.offset}, turn = -1.0;
 
     bool all_hidden = true;
     if (target.reach == Reach::finite) {
@@ -231,7 +243,7 @@ Visibility Occluders::cast_shadow(const View& view, std::uint32_t k,
     q.clear();
     bool in_front = target.reach == Reach::infinite, above = target.horizon == Direction(0);
     for (const Point& corner : corners(k)) {
-        q.push_back(corner - view.eye);
+        q.push_back(corner - view.eye - shift);
         in_front |= glm::dot(view.front.normal, q.back()) - view.front.offset > tolerance_;
         above |= glm::dot(target.horizon, q.back()) > tolerance_;
     }
@@ -266,7 +278,6 @@ Visibility Occluders::look(Point eye, const Target& target, const VisibleLimits&
     scratch.shadows.clear();
     scratch.shadow_ends.clear();
     const View view(eye, target, scratch.target_edges);
-    bool too_many = false;
     for (std::size_t i = 0; i < nodes_.size();) {
         const Node& node = nodes_[i];
         if (view.misses(node)) {
@@ -274,11 +285,10 @@ Visibility Occluders::look(Point eye, const Target& target, const VisibleLimits&
             continue;
         }
         ++i;
-        if (node.polygon == no_polygon || too_many) continue;
+        if (node.polygon == no_polygon) continue;
         if (cast_shadow(view, node.polygon, scratch) == Visibility::none) return Visibility::none;
-        too_many = scratch.shadow_ends.size() > limits.occluders;
+        if (scratch.shadow_ends.size() > limits.occluders) return Visibility::too_many;
     }
-    if (too_many) return Visibility::too_many;
     scratch.visible.add(target.corners);
     if (scratch.shadow_ends.empty()) return Visibility::all;
     std::size_t begin = 0;
@@ -291,13 +301,25 @@ Visibility Occluders::look(Point eye, const Target& target, const VisibleLimits&
     return Visibility::part;
 }
 
-bool Occluders::crosses(std::uint32_t k, Point eye, Direction path, Reach reach) const {
+Direction Occluders::step(Direction normal, Direction inside) const {
+    const double length = glm::length(inside);
+    if (std::abs(glm::dot(normal, inside)) <= least_slope * length) return Direction(0);
+    return inside * (step_size * tolerance_ / length);
+}
+
+bool Occluders::crosses(std::uint32_t k, Point eye, Direction path, Reach reach,
+                        Direction inside) const {
     const HalfSpace& plane = planes_[k];
-    const double start = glm::dot(plane.normal, eye) - plane.offset;
+    double start = glm::dot(plane.normal, eye) - plane.offset;
     const double slope = glm::dot(plane.normal, path);
-    if (std::abs(start) <= tolerance_ || start * slope >= 0.0) return false;
-    if (reach == Reach::finite && (start + slope) * (start > 0.0 ? 1.0 : -1.0) >= -tolerance_)
-        return false;
+    const double end = start + slope;
+    if (std::abs(start) <= tolerance_) {  // as in cast_shadow
+        const Direction shift = step(plane.normal, inside);
+        start = glm::dot(plane.normal, shift);
+        eye += shift;
+    }
+    if (start * slope >= 0.0) return false;
+    if (reach == Reach::finite && end * (start > 0.0 ? 1.0 : -1.0) >= -tolerance_) return false;
     const double turn = start < 0.0 ? 1.0 : -1.0;  // −1: its front looks to the eye
     const double length = glm::length(path);
     const auto polygon = corners(k);
@@ -309,7 +331,7 @@ bool Occluders::crosses(std::uint32_t k, Point eye, Direction path, Reach reach)
     return true;
 }
 
-bool Occluders::blocked(Point eye, Direction path, Reach reach) const {
+bool Occluders::blocked(Point eye, Direction path, Reach reach, Direction inside) const {
     const double square = glm::dot(path, path);
     for (std::size_t i = 0; i < nodes_.size();) {
         const Node& node = nodes_[i];
@@ -321,7 +343,8 @@ bool Occluders::blocked(Point eye, Direction path, Reach reach) const {
             i = node.skip;
             continue;
         }
-        if (node.polygon != no_polygon && crosses(node.polygon, eye, path, reach)) return true;
+        if (node.polygon != no_polygon && crosses(node.polygon, eye, path, reach, inside))
+            return true;
         ++i;
     }
     return false;

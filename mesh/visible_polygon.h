@@ -50,8 +50,11 @@ enum class Reach { finite, infinite };  // a polygon at its corners' distance, o
 struct Target {
     std::span<const Point> corners;  // convex, counter-clockwise seen from the point
     Reach reach = Reach::finite;
-    Direction horizon{0};  // occluders wholly behind this plane through the point matter
-                           // not; 0: none
+    // Occluders wholly behind this plane through the point do not matter; 0: none.
+    Direction horizon{0};
+    // Any length: on which side of the planes that it lies on the point is taken to be; 0: what it
+    // lies on hides nothing.
+    Direction inside{0};
 };
 
 // normal·p > offset.
@@ -97,8 +100,9 @@ class Occluders {
     Visibility look(Point eye, const Target& target, const VisibleLimits& limits,
                     VisibleScratch& scratch) const;
 
-    // Whether something lies between `eye` and eye + path (infinite: beyond as well).
-    bool blocked(Point eye, Direction path, Reach reach) const;
+    // Whether something lies between `eye` and eye + path (infinite: beyond as well); `inside` as
+    // in Target.
+    bool blocked(Point eye, Direction path, Reach reach, Direction inside = Direction(0)) const;
 
   private:
     // Depth-first tree; a node that is missed is skipped with all below it.
@@ -116,7 +120,9 @@ class Occluders {
     void build(std::span<std::uint32_t> polygons);
     Node bound(std::span<const std::uint32_t> polygons) const;
     Visibility cast_shadow(const View& view, std::uint32_t k, VisibleScratch& scratch) const;
-    bool crosses(std::uint32_t k, Point eye, Direction path, Reach reach) const;
+    bool crosses(std::uint32_t k, Point eye, Direction path, Reach reach, Direction inside) const;
+    // A tiny step along `inside` off a plane; 0 if it would lead along the plane.
+    Direction step(Direction normal, Direction inside) const;
 
     std::vector<HalfSpace> planes_;
     std::vector<std::uint32_t> begin_{0};

@@ -80,6 +80,15 @@ std::vector<mesh::ConvexPolygon> inner_polygons(const Enclosure& enclosure,
     return inner;
 }
 
+// Which side of a wall the receiver is on if it lies on one: towards the middle of its tet.
+Direction into(const mesh::BaseMesh& mesh, const Receiver& receiver) {
+    Point sum(0);
+    for (const auto corner : mesh.tets[receiver.tet.value]) sum += mesh.points[corner.value];
+    const Direction inside = 0.25 * sum - receiver.x;
+    return receiver.on_surface && glm::dot(inside, receiver.normal) <= 0.0 ? receiver.normal
+                                                                           : inside;
+}
+
 bool shines(const Spectrum& spectrum) {
     return std::any_of(spectrum.begin(), spectrum.end(), [](double v) { return v != 0.0; });
 }
@@ -258,7 +267,8 @@ void DirectLight::Data::from_area(const Receiver& receiver, const AreaLight& lig
         corners.swap(scratch.above);
         if (corners.size() < 3) return;
     }
-    const mesh::Target target{corners, light.reach, receiver.normal};
+    const mesh::Target target{corners, light.reach, receiver.normal,
+                              into(enclosure.mesh, receiver)};
     const mesh::VisibleLimits limits{options.exact_occluders};
     switch ((finite ? inner : all).look(receiver.x, target, limits, scratch.visible)) {
         case mesh::Visibility::none:
@@ -279,7 +289,9 @@ void DirectLight::Data::from_path(const Receiver& receiver, Direction path, mesh
     const double length = glm::length(path);
     if (length == 0.0 || factor <= 0.0) return;
     const double cosine = receiver.cosine(path / length);
-    if (cosine <= 0.0 || all.blocked(receiver.x, path, reach)) return;
+    if (cosine <= 0.0) return;
+    const Direction inside = into(enclosure.mesh, receiver);
+    if (all.blocked(receiver.x, path, reach, inside)) return;
     thread_local std::vector<double> depths;
     depths.assign(incident.size(), 0.0);
     if (!depth.transparent()) {

@@ -33,7 +33,7 @@ namespace tyndall::radiosity {
 struct DirectLightOptions {
     std::size_t exact_occluders =
         48;                        // that overlap an emitter as seen from a point; beyond: sampled
-    double optical_step = 0.1;     // optical depth over which τ is integrated in one go [-]
+    double optical_step = 0.5;     // optical depth over which τ is integrated in one go [-]
     std::size_t shadow_rays = 64;  // where visibility is sampled
     bool emitters = true;          // emitting surfaces too; else only sun, point and spot lights
 };

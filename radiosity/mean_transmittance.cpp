@@ -6,12 +6,18 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "radiosity/closed_forms.h"
+
 namespace tyndall::radiosity {
 namespace {
 
 constexpr std::size_t most_triangles = 1024;  // a polygon; then the rest is taken as it is
-constexpr double low_share = 0.1;             // of the step, up to which three points are enough
-constexpr double flat = 1e-3;  // variation too small for the weights' shape to matter
+constexpr double narrow = 0.1;      // spread, up to which cubature integrates the weights to 1e-6
+constexpr double low_share = 0.02;  // of the step, up to which three points are enough
+constexpr double flat = 2e-4;  // variation, of the step, too small for the weights' shape to matter
+// Variation of the exponent × spread of the weights, of the step: three points then err by 1e-6.
+constexpr double little = 1e-5;
+constexpr double some = 0.1;  // the same, up to which seven points err by about 1e-5
 
 struct Node {
     double a, b, c, weight;  // barycentric
@@ -45,16 +51,22 @@ struct Scratch {
 
 class Mean {
   public:
-    Mean(const OpticalDepth& depth, const Receiver& receiver, const Hull* hull, std::size_t bands,
-         Scratch& scratch)
-        : depth_(depth), receiver_(receiver), hull_(hull), bands_(bands), scratch_(scratch) {
+    Mean(const OpticalDepth& depth, const Receiver& receiver, const Hull* hull, double height,
+         std::size_t bands, Scratch& scratch)
+        : depth_(depth),
+          receiver_(receiver),
+          hull_(hull),
+          height_(height),
+          bands_(bands),
+          scratch_(scratch) {
         scratch_.sum.assign(bands, 0.0);
         scratch_.depths.resize(degree_5.size() * bands);
     }
 
-    // Evaluates a rule's nodes; returns the largest variation of the optical depth among them.
+    // Evaluates a rule's nodes; returns how much the optical depth varies: among them, and, as
+    // nodes may happen to be equally far, as it would along straight paths over a triangle so wide.
     template <std::size_t n>
-    double look(const Triangle& t, const std::array<Node, n>& rule) {
+    double look(const Triangle& t, double wide, const std::array<Node, n>& rule) {
         for (std::size_t k = 0; k < n; ++k) {
             const Point p = rule[k].a * t.a + rule[k].b * t.b + rule[k].c * t.c;
             const double s = glm::length(p);
@@ -70,17 +82,26 @@ class Mean {
                 low = std::min(low, scratch_.depths[k * bands_ + band]);
                 high = std::max(high, scratch_.depths[k * bands_ + band]);
             }
-            widest = std::max(widest, high - low);
+            widest = std::max({widest, high - low, 0.1 * high * wide});
         }
         return widest;
     }
 
-    void deposit(std::size_t nodes) {
-        for (std::size_t k = 0; k < nodes; ++k) {
-            total_ += weights_[k];
+    // The triangle's weight is its closed form; where it is narrow the nodes' sum is as good.
+    void deposit(const Triangle& t, double wide, std::size_t nodes) {
+        double sum = 0.0;
+        for (std::size_t k = 0; k < nodes; ++k) sum += weights_[k];
+        if (sum <= 0.0) return;
+        const std::array<Point, 3> corners{t.a, t.b, t.c};
+        const double exact = wide < narrow ? height_ * sum
+                             : receiver_.on_surface
+                                 ? projected_solid_angle(corners, receiver_.normal)
+                                 : solid_angle(corners);
+        total_ += exact;
+        for (std::size_t k = 0; k < nodes; ++k)
             for (std::size_t band = 0; band < bands_; ++band)
-                scratch_.sum[band] += weights_[k] * std::exp(-scratch_.depths[k * bands_ + band]);
-        }
+                scratch_.sum[band] +=
+                    exact / sum * weights_[k] * std::exp(-scratch_.depths[k * bands_ + band]);
     }
 
     double total() const { return total_; }
@@ -89,6 +110,7 @@ class Mean {
     const OpticalDepth& depth_;
     const Receiver& receiver_;
     const Hull* hull_;
+    double height_;  // of the receiver over the polygon's plane
     std::size_t bands_;
     Scratch& scratch_;
     std::array<double, 7> weights_{};
@@ -139,19 +161,23 @@ void mean_transmittance(const OpticalDepth& depth, const Receiver& receiver,
         open.push_back(
             {corners[0], corners[k], corners[k + 1],
              0.5 * glm::length(glm::cross(corners[k] - corners[0], corners[k + 1] - corners[0]))});
-    Mean sum(depth, receiver, hull, mean.size(), scratch);
+    const Direction normal =
+        glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
+    Mean sum(depth, receiver, hull, std::abs(glm::dot(normal, corners[0])), mean.size(), scratch);
     for (std::size_t count = open.size(); !open.empty();) {
         const Triangle t = open.back();
         open.pop_back();
         const double wide = spread(t);
-        double varies = sum.look(t, degree_2);
-        if (varies <= low_share * step && (wide < 0.25 || varies < flat * step)) {
-            sum.deposit(degree_2.size());
+        double varies = sum.look(t, wide, degree_2);
+        if (varies <= low_share * step && wide * varies <= little * step) {
+            sum.deposit(t, wide, degree_2.size());
             continue;
         }
-        varies = sum.look(t, degree_5);
-        if (count >= most_triangles || (varies <= step && (wide < 1.0 || varies < flat * step))) {
-            sum.deposit(degree_5.size());
+        varies = sum.look(t, wide, degree_5);
+        if (count >= most_triangles ||
+            (varies <= step && std::min(wide, 1.0) * varies <= some * step &&
+             (wide < 1.0 || varies < flat * step))) {
+            sum.deposit(t, wide, degree_5.size());
             continue;
         }
         for (const Triangle& half : bisect(t)) open.push_back(half);

@@ -26,6 +26,9 @@ class OpticalDepth {
     // From x, in `tet`, to x + path: `depth` has one value a band [-].
     void operator()(Point x, TetId tet, Direction path, std::span<double> depth) const;
 
+    // The same by walking the base tets, whatever the number of interfaces.
+    void walked(Point x, TetId tet, Direction path, std::span<double> depth) const;
+
   private:
     struct Interface {
         mesh::ConvexPolygon polygon;
@@ -38,7 +41,6 @@ class OpticalDepth {
     }
     bool differ(std::uint32_t a, std::uint32_t b) const;
     void find_interfaces();
-    void walked(Point x, TetId tet, Direction path, std::span<double> depth) const;
 
     const Enclosure* enclosure_;
     double tolerance_;
