@@ -8,10 +8,6 @@
 namespace tyndall::radiosity {
 namespace {
 
-// The mean square of an interpolation error over an element against the square of its largest value
-// at the edges' middles: a quarter holds for a kink across the element.
-constexpr double mean_square_share = 0.25;
-
 // A tet's edge is bisected where the error is largest, so that meshes stretch along shafts, but
 // never one much shorter than the longest, so that slivers do not run away.
 constexpr double shortest_bisected = 0.35;
@@ -30,7 +26,7 @@ void DirectRefiner::measure(Node node, std::vector<float>& errors, std::vector<s
     const auto corner = mesh_.corners(node);
     const int count = static_cast<int>(corner.size());
     const auto& vertices = forest[node].corners;
-    double worst = 0.0, worst_edge = 0.0;
+    double square = 0.0, worst_edge = 0.0;
     const auto longest = forest.longest_edge(node);
     std::array<int, 2> split = longest;
     for (int i = 0; i < count; ++i)
@@ -40,7 +36,7 @@ void DirectRefiner::measure(Node node, std::vector<float>& errors, std::vector<s
             for (std::size_t b = 0; b < bands_; ++b)
                 error += std::abs(samples.direct(middle, b) - 0.5 * (samples.direct(corner[i], b) +
                                                                      samples.direct(corner[j], b)));
-            worst = std::max(worst, error);
+            square += error * error;
             const double length =
                 glm::distance(forest.point(vertices[i]), forest.point(vertices[j]));
             if (error > worst_edge && length > shortest_bisected * forest[node].longest_edge) {
@@ -55,8 +51,10 @@ void DirectRefiner::measure(Node node, std::vector<float>& errors, std::vector<s
         at_centroid += std::abs(centroid[node.value * bands_ + b] - mean);
     }
     if (at_centroid > 2.0 * worst_edge) split = longest;
-    errors[node.value] =
-        static_cast<float>(std::max(worst, at_centroid) / static_cast<double>(bands_));
+    // Root mean square over the points where the error was taken.
+    const double points = 0.5 * count * (count - 1) + 1.0;
+    errors[node.value] = static_cast<float>(
+        std::sqrt((square + at_centroid * at_centroid) / points) / static_cast<double>(bands_));
     edges[node.value] = static_cast<std::uint8_t>(4 * split[0] + split[1]);
 }
 
@@ -122,7 +120,7 @@ RefineResult DirectRefiner::refine(const Importance& importance, double goal,
             if (!forest.is_leaf(z) || zone_error_[z.value] == 0.0f) continue;
             const auto& optics = enclosure_.media[medium_of(enclosure_, forest, z)];
             const double error = mean_over_bands(optics.albedo) * zone_error_[z.value];
-            const double share = mean_square_share * importance.of(z) * error * error;
+            const double share = importance.of(z) * error * error;
             result.squared_error += share;
             if (forest[z].longest_edge > limits.smallest_edge)
                 candidates.push_back({share, z.value, true});
@@ -131,10 +129,15 @@ RefineResult DirectRefiner::refine(const Importance& importance, double goal,
             if (!forest.is_leaf(p) || patch_error_[p.value] == 0.0f) continue;
             const auto& side = enclosure_.sides[side_of(enclosure_, forest, p)];
             const double error = mean_over_bands(side.reflectance) * patch_error_[p.value];
-            const double share = mean_square_share * importance.of(p) * error * error;
+            const double share = importance.of(p) * error * error;
             result.squared_error += share;
             if (forest[p].longest_edge > limits.smallest_edge)
                 candidates.push_back({share, p.value, false});
+        }
+        if (getenv("TYD")) {
+            double zs = 0, ps = 0, zmax = 0, pmax = 0;
+            for (auto& c : candidates) { (c.is_zone ? zs : ps) += c.share; auto& m = c.is_zone ? zmax : pmax; m = std::max(m, c.share); }
+            fprintf(stderr, "zones %.5f patches %.5f max %.6f %.6f\n", std::sqrt(zs), std::sqrt(ps), std::sqrt(zmax), std::sqrt(pmax));
         }
         if (getenv("TYD"))
             fprintf(stderr, "direct: leaves %zu err %.5f goal %.5f\n", mesh_.leaf_count(),
