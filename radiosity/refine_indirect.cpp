@@ -82,9 +82,6 @@ RefineResult IndirectRefiner::refine(Fields sources, double detail, const Import
         collect(patches, ids);
         result.rays += mesh_.samples().gather_at(
             ids, GatherScene(enclosure_, forest, sources, detail), points_, seed_);
-        if (getenv("TYD"))
-            fprintf(stderr, "indirect: frontier %zu zones %zu patches, rays %zu leaves %zu\n",
-                    zones.size(), patches.size(), result.rays, mesh_.leaf_count());
         for (auto* flags : {&zone_settled_, &patch_settled_})
             flags->resize(std::max(forest.zone_count(), forest.patch_count()));
         for (auto* errors : {&zone_error_, &patch_error_})
