@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "mesh/input_error.h"
@@ -10,6 +11,11 @@ namespace tyndall::radiosity {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+// JSON knows no NaN and no infinity: they are written as null.
+double number(const Json& json) {
+    return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
+}
 
 Json pass_json(const PassReport& pass, Costs costs) {
     Json json{{"stage", pass.stage},
@@ -31,7 +37,7 @@ PassReport pass_of(const Json& json) {
     pass.patches = json.at("patches").get<std::size_t>();
     pass.zones = json.at("zones").get<std::size_t>();
     pass.rays = json.at("rays").get<std::size_t>();
-    pass.estimated_error = json.at("estimated_error").get<double>();
+    pass.estimated_error = number(json.at("estimated_error"));
     pass.cpu_seconds = json.value("cpu_seconds", 0.0);
     pass.wall_seconds = json.value("wall_seconds", 0.0);
     pass.memory_bytes = json.value("memory_bytes", std::size_t(0));
@@ -43,7 +49,10 @@ Json spectrum_json(const Spectrum& spectrum) {
 }
 
 Spectrum spectrum_of(const Json& json) {
-    return json.is_array() ? json.get<Spectrum>() : Spectrum{json.get<double>()};
+    if (!json.is_array()) return {number(json)};
+    Spectrum spectrum;
+    for (const Json& value : json) spectrum.push_back(number(value));
+    return spectrum;
 }
 
 Report report_of(const Json& json) {
@@ -54,15 +63,15 @@ Report report_of(const Json& json) {
     for (const auto& pass : json.at("passes")) report.passes.push_back(pass_of(pass));
     const Json& solver = json.at("solver");
     report.solver = {solver.at("method").get<std::string>(),
-                     solver.at("iterations").get<std::size_t>(),
-                     solver.at("residual").get<double>(), solver.at("converged").get<bool>()};
-    report.closure_error = json.at("closure_error").get<double>();
-    report.reciprocity_error = json.at("reciprocity_error").get<double>();
-    report.energy_balance = json.at("energy_balance").get<double>();
-    report.direct_power_check = json.at("direct_power_check").get<double>();
+                     solver.at("iterations").get<std::size_t>(), number(solver.at("residual")),
+                     solver.at("converged").get<bool>()};
+    report.closure_error = number(json.at("closure_error"));
+    report.reciprocity_error = number(json.at("reciprocity_error"));
+    report.energy_balance = number(json.at("energy_balance"));
+    report.direct_power_check = number(json.at("direct_power_check"));
     for (const auto& [name, power] : json.at("net_power").items())
         report.net_power[name] = spectrum_of(power);
-    report.estimated_error = json.at("estimated_error").get<double>();
+    report.estimated_error = number(json.at("estimated_error"));
     report.lost_rays = json.at("lost_rays").get<std::size_t>();
     report.stopped = json.at("stopped").get<bool>();
     report.warnings = json.at("warnings").get<std::vector<std::string>>();
