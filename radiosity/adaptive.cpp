@@ -14,7 +14,7 @@ namespace {
 
 // How the squared error goal is shared out; the rest is for the noise of rows and gathers.
 constexpr double direct_share = 0.5;
-constexpr double indirect_share = 0.25;
+constexpr double indirect_share = 0.5;
 
 // A gather's zone may stand for its leaves when it is no longer than this many spacings of its
 // rays.
@@ -47,7 +47,7 @@ class Loop {
         const Importance importance(*enclosure_, mesh_.forest(), view_, scale_);
         if (options_.refinement == Refinement::adaptive) {
             const auto result =
-                direct_.refine(importance, direct_share * goal(), limits(), progress_);
+                direct_.refine(importance, direct_share * goal(), limits(0.8), progress_);
             note(result);
             squared_error_ = result.squared_error;
             solve(coarse);
@@ -58,7 +58,7 @@ class Loop {
         const double indirect_goal =
             options_.refinement == Refinement::adaptive ? indirect_share * goal() : 1e300;
         const auto result = indirect.refine(coarse_sources(coarse), gather_detail(), importance,
-                                            indirect_goal, limits(), progress_);
+                                            indirect_goal, limits(1.0), progress_);
         note(result);
         rays_ += result.rays;
         squared_error_ += result.squared_error;
@@ -71,10 +71,11 @@ class Loop {
 
   private:
     double goal() const { return options_.error * options_.error; }
-    RefineLimits limits() const {
+    // `share` of the elements allowed: what direct light may not use is left for indirect light.
+    RefineLimits limits(double share) const {
         const auto& base = enclosure_->mesh;
-        return {options_.max_elements, options_.max_memory,
-                1e-4 * glm::distance(base.hull_min, base.hull_max)};
+        return {static_cast<std::size_t>(share * static_cast<double>(options_.max_elements)),
+                options_.max_memory, 1e-4 * glm::distance(base.hull_min, base.hull_max)};
     }
     double gather_detail() const {
         return detail_factor * std::sqrt(4.0 * M_PI / static_cast<double>(options_.gather_rays));
@@ -94,6 +95,12 @@ class Loop {
     }
     template <class Node>
     Affine direct_field(Node node, std::size_t band);
+    // A leaf's linear function of direct light with its mean kept.
+    template <class Node>
+    Affine direct_with_mean(Node node, std::size_t band) {
+        return with_mean(direct_field(node, band), mesh_.forest().centroid(node),
+                         direct_.mean(node, band));
+    }
 
     void note(const RefineResult& result) {
         stopped_ = stopped_ || result.stopped;
@@ -178,7 +185,7 @@ void Loop::rate(const CoarseSolution& coarse) {
         return;
     }
     const Fields sources = coarse_sources(coarse);
-    const GatherScene scene{*enclosure_, mesh_.forest(), sources, 0.0};
+    const GatherScene scene(*enclosure_, mesh_.forest(), sources);
     constexpr int across = 32, down = 24;
     Spectrum radiance(e.bands);
     double sum = 0.0;
@@ -214,11 +221,10 @@ Fields Loop::coarse_sources(const CoarseSolution& coarse) {
     const Forest& forest = mesh_.forest();
     Fields sources;
     sources.resize(forest, e.bands);
-    const auto fill = [&](auto node, std::uint32_t element, Point centroid) {
+    const auto fill = [&](auto node, std::uint32_t element) {
         for (std::size_t b = 0; b < e.bands; ++b) {
             const std::size_t k = element * e.bands + b;
-            Affine f = direct_field(node, b);
-            f.constant += direct_.mean(node, b) - f.at(centroid);
+            const Affine f = direct_with_mean(node, b);
             const double a = e.scatter[k];
             sources.at(node, b) = {a * f.gradient,
                                    e.emission[k] - coarse.split_emission(element, b) +
@@ -226,9 +232,9 @@ Fields Loop::coarse_sources(const CoarseSolution& coarse) {
         }
     };
     for (const ZoneId z : mesh_.zones())
-        if (forest.is_leaf(z)) fill(z, element_above(z, e.of_zone), forest.centroid(z));
+        if (forest.is_leaf(z)) fill(z, element_above(z, e.of_zone));
     for (const PatchId p : mesh_.patches())
-        if (forest.is_leaf(p)) fill(p, element_above(p, e.of_patch), forest.centroid(p));
+        if (forest.is_leaf(p)) fill(p, element_above(p, e.of_patch));
     coarsen(forest, sources);
     return sources;
 }
@@ -245,7 +251,12 @@ Solution Loop::collect(const CoarseSolution& coarse, IndirectRefiner& indirect) 
     solution.patch_error.resize(forest.patch_count());
     const auto fill = [&](auto node, float& error) {
         for (std::size_t b = 0; b < bands; ++b) {
-            solution.direct.at(node, b) = direct_field(node, b);
+            // Zones are seen as integrals along rays, where the mean counts; patches are seen as
+            // they are, where a jump from one to the next would show.
+            if constexpr (std::is_same_v<decltype(node), ZoneId>)
+                solution.direct.at(node, b) = direct_with_mean(node, b);
+            else
+                solution.direct.at(node, b) = direct_field(node, b);
             solution.indirect.at(node, b) = indirect.field(node, b);
         }
         error = static_cast<float>(0.5 * (direct_.error(node) + indirect.error(node)));
