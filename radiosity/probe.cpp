@@ -1,0 +1,102 @@
+#include "radiosity/probe.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+#include "mesh/input_error.h"
+
+namespace tyndall::radiosity {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr double relative_step = 1e-7;  // of the scene's diagonal: beyond rounding, below notice
+
+double diagonal(const mesh::BaseMesh& mesh) {
+    return glm::distance(mesh.hull_min, mesh.hull_max);
+}
+
+}  // namespace
+
+Probe::Probe(const Solution& solution, const ProbeOptions& options)
+    : solution_(solution),
+      options_(options),
+      scene_(*solution.enclosure, solution.forest, reflected_sources(solution)),
+      light_(*solution.enclosure,
+             {.emitters = solution.direct_light == DirectLightMode::closed_form}),
+      points_(options.rays),
+      step_(relative_step * diagonal(solution.enclosure->mesh)) {}
+
+// The tet that holds x, or holds a point a step from it in the direction `towards` (0: nowhere).
+// Where walls meet, the tet that is found may lie behind one of them: then a place just beside x
+// counts.
+Probe::Place Probe::place(Point x, Direction towards) const {
+    const Enclosure& e = *solution_.enclosure;
+    const Point stepped = x + step_ * towards;
+    const TetId first = mesh::locate(e.mesh, stepped);
+    if (first.valid() && !e.solid(first)) return {stepped, first};
+    // Beside: all neighbours on a grid of half steps, those across the normal first.
+    for (const double forward : {0.0, 1.0})
+        for (int k = 0; k < 27; ++k) {
+            const Direction offset(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
+            const double along = glm::dot(offset, towards);
+            if (towards != Direction(0.0) &&
+                (forward == 0.0 ? std::abs(along) > 1e-9 : along < 0.0))
+                continue;
+            const Point beside = stepped + 0.5 * step_ * offset;
+            const TetId tet = mesh::locate(e.mesh, beside, first.valid() ? first : TetId(0));
+            if (tet.valid() && !e.solid(tet)) return {beside, tet};
+        }
+    throw mesh::InputError(fmt::format("the point [{}, {}, {}] {}. Move it{}.", x.x, x.y, x.z,
+                                       first.valid() ? "lies in a solid" : "lies outside the scene",
+                                       towards != Direction(0.0) ? ", or turn its normal" : ""));
+}
+
+std::vector<Gathered> Probe::gathered(const Place& place, Direction normal) const {
+    std::vector<Gathered> incident(solution_.enclosure->bands);
+    gather(scene_, {place.x, {place.tet}, normal}, points_, options_.seed, incident);
+    return incident;
+}
+
+ZoneValues Probe::in_space(Point x) const {
+    const Enclosure& e = *solution_.enclosure;
+    const Place at = place(x, Direction(0.0));
+    const auto indirect = gathered(at, Direction(0.0));
+    Spectrum direct(e.bands);
+    light_.at_zone(at.x, at.tet, direct);
+    const auto medium = e.medium_of(at.tet);
+    ZoneValues values;
+    for (std::size_t b = 0; b < e.bands; ++b) {
+        const double incident = direct[b] + indirect[b].mean;
+        const double albedo = medium == none ? 0.0 : e.media[medium].albedo[b];
+        const double emission = medium == none ? 0.0 : e.media[medium].emission[b];
+        values.source.push_back(emission + albedo * incident);
+        values.source_direct.push_back(albedo * direct[b]);
+        values.incident.push_back(4.0 * pi * incident);
+        values.incident_direct.push_back(4.0 * pi * direct[b]);
+    }
+    return values;
+}
+
+PatchValues Probe::on_surface(Point x, Direction normal) const {
+    const double length = glm::length(normal);
+    if (!(length > 0.0) || !std::isfinite(length))
+        throw mesh::InputError(
+            fmt::format("the normal [{}, {}, {}] has no direction. Give another.", normal.x,
+                        normal.y, normal.z));
+    normal /= length;
+    const Place at = place(x, normal);
+    const auto indirect = gathered(at, normal);
+    Spectrum direct(solution_.enclosure->bands);
+    light_.at_patch(at.x, normal, at.tet, direct);
+    PatchValues values;
+    for (std::size_t b = 0; b < direct.size(); ++b) {
+        values.irradiance.push_back(pi * (direct[b] + indirect[b].mean));
+        values.irradiance_direct.push_back(pi * direct[b]);
+    }
+    return values;
+}
+
+}  // namespace tyndall::radiosity
