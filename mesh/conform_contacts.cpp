@@ -69,7 +69,9 @@ void apply(Soup& soup, Splits& splits) {
 // The corners of p within the tolerance of an edge of q split that edge.
 void find_points_on_edges(const Soup& soup, const Piece& p, const Piece& q, Splits& splits) {
     for (const auto i : p.loop) {
-        if (contains(q.loop, i)) {
+        // A loop stays within a few tolerances of its plane, and so does what is near its edges.
+        if (std::abs(soup.plane_of(q).above(soup.at(i))) > 8.0 * soup.tolerance ||
+            contains(q.loop, i)) {
             continue;
         }
         for (std::size_t k = 0; k < q.loop.size(); ++k) {

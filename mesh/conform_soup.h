@@ -83,6 +83,16 @@ struct Contact {
 // Where pieces of different planes meet: every segment and point, once for either plane.
 std::vector<Contact> find_contacts(const Soup& soup, const Pairs& near);
 
+// A triangle of the complex to be.
+struct Labelled {
+    std::array<Index, 3> corners;
+    std::vector<Owner> owners;  // ascending by polygon
+};
+
+// Triangulates every plane inside its pieces, through the contacts; adds points to the soup where
+// contacts cross.
+std::vector<Labelled> triangulate_planes(Soup& soup, const std::vector<Contact>& contacts);
+
 // Whether x, in the piece's plane, is inside the piece or within the tolerance of its boundary.
 bool holds(const Soup& soup, const Piece& piece, Point x);
 

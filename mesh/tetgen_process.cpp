@@ -237,7 +237,8 @@ Run run(const std::filesystem::path& worker, const std::string& switches, const 
         const Limits& limits) {
     TemporaryFile in, out, err;
     write_input(in, input);
-    const auto cpu = static_cast<unsigned long long>(std::ceil(std::max(limits.seconds, 0.0))) + 1;
+    const auto cpu =
+        static_cast<unsigned long long>(std::ceil(std::clamp(limits.cpu_seconds, 1.0, 1e9)));
     Child child(worker,
                 {worker.string(), switches, std::to_string(cpu), std::to_string(limits.bytes)},
                 in.descriptor(), out.descriptor(), err.descriptor());

@@ -36,8 +36,9 @@ struct Run {
 };
 
 struct Limits {
-    double seconds;     // [s]
-    std::size_t bytes;  // of address space
+    double seconds;      // by the clock on the wall [s]
+    double cpu_seconds;  // of the processor, rounded up [s]
+    std::size_t bytes;   // of address space
 };
 
 // The worker program: `wanted` if not empty, else tyndall-tetgen beside the running program, in the

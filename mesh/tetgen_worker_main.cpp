@@ -102,8 +102,8 @@ bool write_output(std::FILE* out, const tetgenio& io) {
            std::fflush(out) == 0;
 }
 
-void limit(int resource, rlim_t value) {
-    const rlimit limits{value, value};
+void limit(int resource, rlim_t value, rlim_t grace = 0) {
+    const rlimit limits{value, value + grace};
     setrlimit(static_cast<__rlimit_resource>(resource), &limits);
 }
 
@@ -119,7 +119,7 @@ int main(int argc, char** argv) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
 #endif
     limit(RLIMIT_CORE, 0);
-    limit(RLIMIT_CPU, std::strtoull(argv[2], nullptr, 10));
+    limit(RLIMIT_CPU, std::strtoull(argv[2], nullptr, 10), 1);  // SIGXCPU first, then SIGKILL
     limit(RLIMIT_AS, std::strtoull(argv[3], nullptr, 10));
 
     // TetGen prints to stdout; that is for the result alone.

@@ -23,15 +23,22 @@ using namespace tetgen;
 
 struct Attempt {
     std::string switches;
-    double seconds;
+    double cpu_seconds;
 };
 
-// Mild quality first: bisection never mends slivers. Small features and nearly coplanar facets
-// would keep it adding points for ever, so it may add only some (-S), and not take long. Then
-// facets left as they are.
-std::array<Attempt, 2> attempts(std::size_t facets) {
-    return {{{fmt::format("pq2.0S{}Q", 500 + facets / 2), 8.0 + 1e-3 * static_cast<double>(facets)},
-             {"pYQ", 1e9}}};
+// From the best mesh to the surest. Mild quality first: bisection never mends slivers. Small
+// features and nearly coplanar facets would keep TetGen adding points for ever, so it may add only
+// some (-S), and not take long; it counts its own seconds, for the result should not depend on what
+// else runs. Then without merging facets on the same polygons (-M), then without quality, then
+// facets left unsplit (-Y).
+std::vector<Attempt> attempts(std::size_t facets) {
+    const auto points = 500 + facets / 2;
+    const double seconds = 6.0 + 1e-3 * static_cast<double>(facets);
+    return {{fmt::format("pq2.0S{}Q", points), seconds},
+            {fmt::format("pq2.0MS{}Q", points), seconds},
+            {"pQ", 3.0 * seconds},
+            {"pMQ", 3.0 * seconds},
+            {"pYMQ", 1e9}};
 }
 
 void check(const ConformingComplex& complex, const TetrahedralizeOptions& options) {
@@ -91,7 +98,7 @@ Input input_of(const ConformingComplex& complex, const FacetGroups& groups, cons
 // The facets that TetGen's own check finds crossing, or none.
 std::vector<FacetId> diagnose(const std::filesystem::path& worker, const Input& input,
                               const FacetGroups& groups, const Limits& limits) {
-    const auto result = run(worker, "pdQ", input, {std::min(limits.seconds, 20.0), limits.bytes});
+    const auto result = run(worker, "pdQ", input, limits);
     std::set<FacetId> facets;
     if (result.outcome == Outcome::done && result.output.tets.empty()) {
         for (const auto marker : result.output.face_markers) {
@@ -124,8 +131,8 @@ class Mesher {
         if (!failures_.empty() && remaining() <= 0.0) {
             return {};
         }
-        const double seconds = std::min(attempt.seconds, remaining());
-        const auto result = run(worker_, attempt.switches, input_, {seconds, options_.max_bytes});
+        const auto result = run(worker_, attempt.switches, input_,
+                                {remaining(), attempt.cpu_seconds, options_.max_bytes});
         if (result.outcome != Outcome::done) {
             failures_.push_back({result.outcome, result.message, {}});
             return {};
@@ -175,7 +182,7 @@ class Mesher {
             const FacetId pair[] = {trouble->first, trouble->second};
             return fmt::format("{} cross or overlap near {}.", names(pair), at(trouble->where));
         }
-        auto found = diagnose(worker_, input_, groups_, {20.0, options_.max_bytes});
+        auto found = diagnose(worker_, input_, groups_, {20.0, 20.0, options_.max_bytes});
         if (found.empty() && failed.valid()) {
             found.push_back(failed);
         }

@@ -47,7 +47,7 @@ class Loop {
         const Importance importance(*enclosure_, mesh_.forest(), view_, scale_);
         if (options_.refinement == Refinement::adaptive) {
             const auto result =
-                direct_.refine(importance, direct_share * goal(), limits(), progress_);
+                direct_.refine(importance, direct_share * goal(), limits(0.8), progress_);
             note(result);
             squared_error_ = result.squared_error;
             solve(coarse);
@@ -58,7 +58,7 @@ class Loop {
         const double indirect_goal =
             options_.refinement == Refinement::adaptive ? indirect_share * goal() : 1e300;
         const auto result = indirect.refine(coarse_sources(coarse), gather_detail(), importance,
-                                            indirect_goal, limits(), progress_);
+                                            indirect_goal, limits(1.0), progress_);
         note(result);
         rays_ += result.rays;
         squared_error_ += result.squared_error;
@@ -71,10 +71,11 @@ class Loop {
 
   private:
     double goal() const { return options_.error * options_.error; }
-    RefineLimits limits() const {
+    // `share` of the elements allowed: what direct light may not use is left for indirect light.
+    RefineLimits limits(double share) const {
         const auto& base = enclosure_->mesh;
-        return {options_.max_elements, options_.max_memory,
-                1e-4 * glm::distance(base.hull_min, base.hull_max)};
+        return {static_cast<std::size_t>(share * static_cast<double>(options_.max_elements)),
+                options_.max_memory, 1e-4 * glm::distance(base.hull_min, base.hull_max)};
     }
     double gather_detail() const {
         return detail_factor * std::sqrt(4.0 * M_PI / static_cast<double>(options_.gather_rays));
@@ -94,6 +95,14 @@ class Loop {
     }
     template <class Node>
     Affine direct_field(Node node, std::size_t band);
+    // Shifts a leaf's function to the mean of its direct light.
+    template <class Node>
+    void keep_mean(Node node, Fields& fields) {
+        for (std::size_t b = 0; b < fields.bands; ++b) {
+            Affine& f = fields.at(node, b);
+            f.constant += direct_.mean(node, b) - f.at(mesh_.forest().centroid(node));
+        }
+    }
 
     void note(const RefineResult& result) {
         stopped_ = stopped_ || result.stopped;
@@ -248,6 +257,9 @@ Solution Loop::collect(const CoarseSolution& coarse, IndirectRefiner& indirect) 
             solution.direct.at(node, b) = direct_field(node, b);
             solution.indirect.at(node, b) = indirect.field(node, b);
         }
+        // Zones are seen as integrals along rays, where the mean counts; patches are seen as they
+        // are, where a jump from one to the next would show.
+        if constexpr (std::is_same_v<decltype(node), ZoneId>) keep_mean(node, solution.direct);
         error = static_cast<float>(0.5 * (direct_.error(node) + indirect.error(node)));
     };
     for (const ZoneId z : mesh_.zones())

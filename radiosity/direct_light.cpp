@@ -1,6 +1,7 @@
 #include "radiosity/direct_light.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
@@ -304,6 +305,7 @@ void DirectLight::Data::from_path(const Receiver& receiver, Direction path, mesh
 }
 
 void DirectLight::Data::gather(const Receiver& receiver, std::span<double> incident) const {
+    assert(receiver.tet.valid() && incident.size() == enclosure.bands);
     std::fill(incident.begin(), incident.end(), 0.0);
     thread_local Scratch scratch;
     scratch.mean.resize(incident.size());

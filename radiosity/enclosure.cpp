@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <map>
 #include <numbers>
 #include <numeric>
 
@@ -41,6 +42,19 @@ Polygons collect_polygons(const Scene& scene) {
         }
     }
     return polygons;
+}
+
+// Along the polygon's front normal (Newell), twice its area long.
+glm::dvec3 area_vector(const mesh::Polygon& polygon) {
+    glm::dvec3 sum(0.0);
+    const auto& c = polygon.corners;
+    for (std::size_t k = 1; k + 1 < c.size(); ++k) sum += glm::cross(c[k] - c[0], c[k + 1] - c[0]);
+    return sum;
+}
+
+// The [[surface]] that a face belongs to: "lamp" of "lamp.top".
+std::string whole_surface(const std::string& name) {
+    return name.substr(0, name.find('.'));
 }
 
 Point position(const Light& light) {
@@ -90,6 +104,19 @@ class Binder {
     const mesh::SideOwner& owner(FacetId facet, Side side) const {
         const auto& source = complex_.facets[mesh_.facets[facet.value].source.value];
         return side == Side::front ? source.front : source.back;
+    }
+
+    // Whether an opaque polygon on the facet has its back on this side. Where a box stands on a
+    // floor, each turns its back to what the other one's front looks into: both sides are a
+    // solid's.
+    bool backs(FacetId facet, Side side) const {
+        const auto& source = complex_.facets[mesh_.facets[facet.value].source.value];
+        const Direction towards = (side == Side::front ? 1.0 : -1.0) * mesh::normal(mesh_, facet);
+        return std::any_of(source.polygons.begin(), source.polygons.end(), [&](mesh::PolygonId id) {
+            const mesh::Polygon& polygon = polygons_.list[id.value];
+            return polygon.opacity == Opacity::opaque &&
+                   glm::dot(area_vector(polygon), towards) < 0.0;
+        });
     }
 
     void keep(RegionId region) {
@@ -230,33 +257,44 @@ class Binder {
         }
     }
 
+    // A power is that of the whole surface: all its faces share it by area.
     void resolve_power() {
+        std::map<std::string, std::vector<std::uint32_t>> emitting;
         for (std::size_t s = 0; s < scene_.surfaces.size(); ++s) {
-            if (!scene_.surfaces[s].material) continue;
-            const Material& material = scene_.materials[*scene_.surfaces[s].material];
-            if (material.power.empty()) continue;
-            std::vector<std::uint32_t> emitting;
-            double area = 0.0;
-            for (const int k : {0, 1}) {
-                const auto index = indices_[2 * s + k];
-                if (index == none || materials_[index] != &material) continue;
-                emitting.push_back(index);
-                area += e_.sides[index].area;
-            }
-            if (!(area > 0.0))
-                throw InputError(fmt::format(
-                    "{} is to emit a power, but no part of its emitting side faces a region that "
-                    "light can be in. Turn it (front = right-hand rule of the corners), or set "
-                    "emits = \"both\".",
-                    named("surface", scene_.surfaces[s].name, scene_.surfaces[s].where)));
-            for (const auto index : emitting)
-                for (std::size_t b = 0; b < e_.bands; ++b)
-                    e_.sides[index].emission[b] = material.power[b] / (std::numbers::pi * area);
+            const Surface& surface = scene_.surfaces[s];
+            if (!surface.material || scene_.materials[*surface.material].power.empty()) continue;
+            auto& sides = emitting[whole_surface(surface.name)];
+            for (const int k : {0, 1})
+                if (const auto index = indices_[2 * s + k];
+                    index != none && materials_[index] == &scene_.materials[*surface.material])
+                    sides.push_back(index);
         }
+        for (const auto& [name, sides] : emitting) {
+            double area = 0.0;
+            for (const auto index : sides) area += e_.sides[index].area;
+            if (!(area > 0.0)) throw no_area(name);
+            for (const auto index : sides)
+                for (std::size_t b = 0; b < e_.bands; ++b)
+                    e_.sides[index].emission[b] =
+                        materials_[index]->power[b] / (std::numbers::pi * area);
+        }
+    }
+
+    InputError no_area(const std::string& name) const {
+        const auto surface =
+            std::find_if(scene_.surfaces.begin(), scene_.surfaces.end(),
+                         [&](const Surface& s) { return whole_surface(s.name) == name; });
+        return InputError(fmt::format(
+            "{} is to emit a power, but no part of its emitting side faces a region that light can "
+            "be "
+            "in. Turn it (front = right-hand rule of the corners), or set emits = \"both\".",
+            named("surface", name, surface->where)));
     }
 
     // A closed region with a source, no absorption and no opening has no steady state.
     void refuse_unbounded();
+    template <class Find>
+    std::string boundary_of(std::uint32_t group, Find& find) const;
 
     const Scene& scene_;
     const Polygons& polygons_;
@@ -266,6 +304,19 @@ class Binder {
     std::vector<std::uint32_t> indices_;      // 2 × surface + back → side
     std::vector<const Material*> materials_;  // of each side, null where it does not emit
 };
+
+// "file:line:column: surface "room.floor": " of the first surface that bounds a group of regions.
+template <class Find>
+std::string Binder::boundary_of(std::uint32_t group, Find& find) const {
+    for (std::size_t f = 0; f < mesh_.facets.size(); ++f)
+        for (const int k : {0, 1}) {
+            if (e_.facet_sides[f][k] == none) continue;
+            if (find(mesh_.regions[mesh_.facets[f].tets[k].value].value) != group) continue;
+            const Surface& surface = scene_.surfaces[e_.sides[e_.facet_sides[f][k]].surface];
+            return named("surface", surface.name, surface.where) + ": ";
+        }
+    return {};
+}
 
 void Binder::refuse_unbounded() {
     // Regions that light can pass between, joined through their interfaces.
@@ -306,10 +357,11 @@ void Binder::refuse_unbounded() {
                     gains[find(r.value)] = true;
         for (std::size_t r = 0; r < mesh_.region_count; ++r)
             if (gains[r] && !loses[r] && !e_.region_solid[r])
-                throw InputError(
-                    "A closed region has a source of light but nothing that absorbs (every "
-                    "reflectance is 1, every albedo 1) and no opening: its light grows for ever. "
-                    "Lower a reflectance or an albedo, or open the region.");
+                throw InputError(fmt::format(
+                    "{}the closed region it bounds has a source of light but nothing that absorbs "
+                    "(every reflectance is 1, every albedo 1) and no opening: its light grows for "
+                    "ever. Lower a reflectance or an albedo, or open the region.",
+                    boundary_of(r, find)));
     }
 }
 

@@ -138,6 +138,16 @@ double spread(const Triangle& t) {
            glm::dot(centre, centre);
 }
 
+// Whether a rule is enough for a triangle over which the exponent varies so much.
+bool three_do(double varies, double wide, double step) {
+    return varies <= low_share * step && wide * varies <= little * step;
+}
+
+bool seven_do(double varies, double wide, double step) {
+    if (wide >= 1.0 && varies >= flat * step) return false;
+    return varies <= step && std::min(wide, 1.0) * varies <= some * step;
+}
+
 }  // namespace
 
 double Hull::exit(Point x, Direction unit) const {
@@ -169,14 +179,12 @@ void mean_transmittance(const OpticalDepth& depth, const Receiver& receiver,
         open.pop_back();
         const double wide = spread(t);
         double varies = sum.look(t, wide, degree_2);
-        if (varies <= low_share * step && wide * varies <= little * step) {
+        if (three_do(varies, wide, step)) {
             sum.deposit(t, wide, degree_2.size());
             continue;
         }
         varies = sum.look(t, wide, degree_5);
-        if (count >= most_triangles ||
-            (varies <= step && std::min(wide, 1.0) * varies <= some * step &&
-             (wide < 1.0 || varies < flat * step))) {
+        if (count >= most_triangles || seven_do(varies, wide, step)) {
             sum.deposit(t, wide, degree_5.size());
             continue;
         }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <glm/geometric.hpp>
+#include <stdexcept>
 
 namespace tyndall::radiosity {
 namespace {
@@ -14,9 +15,13 @@ constexpr double gap = 1e-5;  // of the scene's diagonal: well above single prec
 
 struct Occlusion::Scene {
     RTCDevice device = rtcNewDevice(nullptr);
-    RTCScene scene = rtcNewScene(device);
+    RTCScene scene = device ? rtcNewScene(device) : nullptr;
 
-    Scene() { rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST); }
+    Scene() {
+        if (!device || !scene)
+            throw std::runtime_error("Embree cannot be started on this machine.");
+        rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+    }
     ~Scene() {
         rtcReleaseScene(scene);
         rtcReleaseDevice(device);

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "mesh/input_error.h"
+#include "radiosity/direct_light.h"
 #include "radiosity/point_set.h"
 #include "radiosity/segment.h"
 
@@ -41,8 +42,13 @@ struct Seen {
 
 class LineOfSight {
   public:
-    explicit LineOfSight(const radiosity::Solution& solution)
-        : s_(solution), e_(*solution.enclosure), bands_(e_.bands) {}
+    // `threshold`: error of a patch's direct light above which it is computed anew [W/m^2/sr].
+    LineOfSight(const radiosity::Solution& solution, double threshold)
+        : s_(solution),
+          e_(*solution.enclosure),
+          bands_(e_.bands),
+          light_(e_, {.emitters = s_.direct_light == radiosity::DirectLightMode::closed_form}),
+          threshold_(threshold) {}
 
     void look(const mesh::Ray& ray, mesh::WalkStart start, Seen& seen) const {
         seen.radiance.assign(parts * bands_, 0.0);
@@ -98,11 +104,19 @@ class LineOfSight {
         const auto& optics = e_.sides[side];
         const Point x = ray.origin + end.distance * ray.direction;
         const PatchId leaf = s_.forest.leaf_at(mesh::root_patch(end.facet, end.side), x);
+        thread_local std::vector<double> direct;
+        direct.resize(bands_);
+        if (s_.patch_error[leaf.value] > threshold_) {
+            const mesh::Direction n = radiosity::normal_of(s_.forest, leaf);
+            light_.at_patch(x, n, end.tet, direct);
+        } else {
+            for (std::size_t b = 0; b < bands_; ++b)
+                direct[b] = std::max(0.0, s_.direct.at(leaf, b).at(x));
+        }
         for (std::size_t b = 0; b < bands_; ++b) {
             const double t = seen.transmittance[b], rho = optics.reflectance[b];
             seen.radiance[emission * bands_ + b] += t * optics.emission[b];
-            seen.radiance[surfaces_direct * bands_ + b] +=
-                t * rho * std::max(0.0, s_.direct.at(leaf, b).at(x));
+            seen.radiance[surfaces_direct * bands_ + b] += t * rho * direct[b];
             seen.radiance[surfaces_indirect * bands_ + b] +=
                 t * rho * std::max(0.0, s_.indirect.at(leaf, b).at(x));
         }
@@ -111,7 +125,26 @@ class LineOfSight {
     const radiosity::Solution& s_;
     const radiosity::Enclosure& e_;
     std::size_t bands_;
+    radiosity::DirectLight light_;
+    double threshold_;
 };
+
+// Mean radiance of the surfaces, a measure of the picture's before there is one [W/m^2/sr].
+double typical_radiance(const radiosity::Solution& s) {
+    double sum = 0.0, area = 0.0;
+    for (std::size_t p = 0; p < s.forest.patch_count(); ++p) {
+        const PatchId patch(p);
+        if (!s.forest.is_leaf(patch) || radiosity::side_of(*s.enclosure, s.forest, patch) == none)
+            continue;
+        const double a = s.forest.area(patch);
+        const Point centroid = s.forest.centroid(patch);
+        for (std::size_t b = 0; b < s.enclosure->bands; ++b)
+            sum += a * radiosity::scatter_of(s, patch, b) *
+                   (s.direct.at(patch, b).at(centroid) + s.indirect.at(patch, b).at(centroid));
+        area += a * static_cast<double>(s.enclosure->bands);
+    }
+    return area > 0.0 ? sum / area : 0.0;
+}
 
 // Where rays from the eye enter the mesh: the eye's own tet, or, from outside the hull, the point
 // where the ray meets it.
@@ -163,7 +196,7 @@ Image line_of_sight(const radiosity::Solution& solution, const Camera& camera,
             "camera \"{}\" at [{}, {}, {}] stands inside a solid. Move its eye into the open.",
             camera.name, camera.eye.x, camera.eye.y, camera.eye.z));
     Image image = blank(camera, bands);
-    const LineOfSight line(solution);
+    const LineOfSight line(solution, options.direct_tolerance * typical_radiance(solution));
     const auto grid = static_cast<std::size_t>(std::ceil(std::sqrt(double(options.samples))));
     const double share = 1.0 / static_cast<double>(grid * grid);
     std::atomic<std::size_t> rows_done = 0;

@@ -11,6 +11,10 @@ namespace tyndall::render {
 struct RenderOptions {
     std::string method = "line_of_sight";
     std::size_t samples = 16;  // rays a pixel, on a stratified grid
+    // Direct light on a surface is computed anew in closed form at what a ray hits, wherever the
+    // patch's own linear function may be off by more than this share of the surfaces' mean
+    // radiance.
+    double direct_tolerance = 0.002;  // [-]
     std::uint64_t seed = 1;
     std::size_t threads = 0;  // 0: all
 };
