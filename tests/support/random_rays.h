@@ -126,7 +126,8 @@ inline Shot random_shot(const mesh::BaseMesh& mesh, RayKind kind, Random& random
     }
 }
 
-// How far x lies outside a tet, by its four planes; ≤ 0 inside [m].
+// How far x lies outside a tet, by its four planes, beyond what rounding makes of the planes of
+// needles; ≤ 0 inside [m].
 template <class Corner>
 double outside_tet(Corner&& corner, mesh::Point x) {
     double most = -1e300;
@@ -134,8 +135,14 @@ double outside_tet(Corner&& corner, mesh::Point x) {
         const auto& f = mesh::face_corners[k];
         const mesh::Point a = corner(f[0]), b = corner(f[1]), c = corner(f[2]);
         const auto n = glm::cross(b - a, c - a);
-        const double length = glm::length(n);
-        if (length > 0.0) most = std::max(most, glm::dot(n, x - a) / length);
+        const double twice_area = glm::length(n);
+        if (twice_area == 0.0) continue;
+        // Corners round by some 1e-16 of their coordinates; over a needle's width that turns its
+        // plane, which x is a length away from.
+        const double length = std::max(glm::distance(a, b), glm::distance(a, c));
+        const double rounding =
+            1e-15 * glm::length(a) * length * (length + glm::distance(x, a)) / twice_area;
+        most = std::max(most, glm::dot(n, x - a) / twice_area - rounding);
     }
     return most;
 }
