@@ -8,6 +8,7 @@
 #include "mesh/catch.h"
 #include "radiosity/adaptive.h"
 #include "radiosity/coarse_solution.h"
+#include "radiosity/exchange_walked.h"
 #include "radiosity/refine.h"
 
 using namespace tyndall;

@@ -9,16 +9,21 @@ using namespace tyndall;
 
 TEST_CASE("Walked rows converge faster than independent rays", "[exchange]") {
     const auto file = test::reference("3a_box_dea_extinction");
+    // A face's share of a ray is 1 or 0 as the ray strikes it or not, and Sobol' points in five
+    // dimensions gain less on jumps than on what a volume takes: measured rates are −0.61 to −0.66
+    // and −0.80 to −0.87; independent rays have −0.5. The slope over 64 seeds is known to 0.03:
+    // the bounds leave two of that.
     struct Quantity {
         std::string name;
         std::size_t from, to;
+        double slope;
     };
-    const std::vector<Quantity> quantities{{"unit_SS_opposed_z_kappa1", 4, 5},
-                                           {"unit_SS_perp_x0_z0_kappa1", 0, 4},
-                                           {"unit_VS_ownface_x0_kappa1", 6, 0},
-                                           {"unit_VS_ownface_z0_kappa1", 4, 6},
-                                           {"unit_VV_self_kappa1", 6, 6}};
-    constexpr int seeds = 24;
+    const std::vector<Quantity> quantities{{"unit_SS_opposed_z_kappa1", 4, 5, -0.55},
+                                           {"unit_SS_perp_x0_z0_kappa1", 0, 4, -0.55},
+                                           {"unit_VS_ownface_x0_kappa1", 6, 0, -0.55},
+                                           {"unit_VS_ownface_z0_kappa1", 4, 6, -0.7},
+                                           {"unit_VV_self_kappa1", 6, 6, -0.7}};
+    constexpr int seeds = 64;
     const std::array<std::size_t, 4> rays{64, 256, 1024, 4096};
     std::vector<std::array<double, 4>> rms(quantities.size());
     for (std::size_t d = 0; d < rays.size(); ++d) {
@@ -39,7 +44,7 @@ TEST_CASE("Walked rows converge faster than independent rays", "[exchange]") {
             (3 * std::log(r[3] / r[0]) + std::log(r[2] / r[1])) / (10.0 * std::log(4.0));
         INFO(quantities[q].name << ": " << r[0] << " " << r[1] << " " << r[2] << " " << r[3]
                                 << ", slope " << slope);
-        CHECK(slope < -0.6);
+        CHECK(slope < quantities[q].slope);
         WARN(quantities[q].name << ": " << r[0] << " " << r[1] << " " << r[2] << " " << r[3]
                                 << ", slope " << slope);
     }

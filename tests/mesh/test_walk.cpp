@@ -205,6 +205,31 @@ TEST_CASE("Rays through the vertices and along the edges of a grid", "[walk]") {
     check(tally);
 }
 
+TEST_CASE("Edge tests fit together, ties included", "[walk]") {
+    // Of a face that holds the ray's point no fourth vertex sees all three corners on one side.
+    using walk_detail::Projected;
+    test::Random random(9);
+    const auto is_positive = [](const Projected& a, const Projected& b) {
+        return walk_detail::positive(walk_detail::cross(a, b), a, b);
+    };
+    std::size_t faces = 0, wrong = 0;
+    for (int k = 0; k < 400000; ++k) {
+        // Small integers tie often; times a third, products round.
+        const double unit = k % 2 ? 1.0 : 1.0 / 3.0;
+        std::array<Projected, 4> p;
+        for (std::uint32_t i = 0; i < 4; ++i)
+            p[i] = {unit * (double(random() % 5) - 2), unit * (double(random() % 5) - 2), 0.0, i};
+        std::shuffle(p.begin(), p.end(), random);
+        const auto& [a, b, c, d] = p;
+        wrong += is_positive(a, b) == is_positive(b, a);
+        if (!is_positive(a, b) || !is_positive(b, c) || !is_positive(c, a)) continue;
+        ++faces;
+        wrong += is_positive(a, d) == is_positive(b, d) && is_positive(b, d) == is_positive(c, d);
+    }
+    CHECK(faces > 10000);
+    CHECK(wrong == 0);
+}
+
 TEST_CASE("Crossings are those of the polygons", "[walk]") {
     for (const auto& scene : test::ray_scenes()) {
         INFO(scene.name);

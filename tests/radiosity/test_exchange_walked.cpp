@@ -117,3 +117,17 @@ TEST_CASE("Reciprocity comes with rays", "[exchange]") {
     // Independent rays would have the rate 1/2; Sobol' points do better than that.
     CHECK(std::log(fine / coarse) / std::log(64.0) < -0.55);
 }
+
+TEST_CASE("Closure and reciprocity errors are what their headers say", "[exchange]") {
+    Elements elements;
+    elements.patches.resize(3);
+    elements.capacity = {2.0, 4.0, 1.0};
+    // S_01 = 1, S_10 = 3, S_12 = 1 without a S_21; outside is column 3.
+    ExchangeAreas areas;
+    areas.starts = {0, 2, 4, 5};
+    areas.columns = {1, 3, 0, 2, 3};
+    areas.values = {1.0, 1.0, 3.0, 1.0, 0.5};
+    CHECK(closure_error(areas, elements, 0) == 0.5);
+    // Σ_ij |S_ij − S_ji| = 2·2 + 2·1 over Σ S_ij = 5.
+    CHECK(reciprocity_error(areas, elements) == Approx(6.0 / 5.0));
+}

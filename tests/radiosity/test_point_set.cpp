@@ -10,6 +10,7 @@
 #include "mesh/catch.h"
 
 using namespace tyndall;
+using mesh::Direction;
 using namespace tyndall::radiosity;
 
 namespace {
