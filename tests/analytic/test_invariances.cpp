@@ -163,6 +163,7 @@ TEST_CASE("No light leaks through a partition", "[leak]") {
                                 : solution.forest.centroid(coarse.elements.zone(i));
             if (dark(c)) most = std::max(most, coarse.incident[i]);
         }
-        CHECK(most == 0.0);
+        // GMRES turns whole vectors (Householder): rounding reaches every element.
+        CHECK(most < 1e-12 * brightest(solution, solution.direct, lit));
     }
 }

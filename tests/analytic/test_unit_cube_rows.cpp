@@ -21,20 +21,26 @@ TEST_CASE("Unit cube: V_kV_k, V_kS_j, S_iS_j of walked rows", "[exchange]") {
     struct Quantity {
         std::string name;
         std::size_t from, to;  // groups: walls 0 to 5, the cube 6
+        double tolerance;
     };
+    // 384 tets and 32 patches a wall, 256 rays each. The tolerance is three times the standard
+    // error measured over eight seeds: 0.03 % and 0.2 % for rows of zones (98 k rays), 0.1 % and
+    // 0.8 % for rows of patches (8 k rays), where the target is a volume and a wall.
+    constexpr double self = 0.001, zone = 0.006, volume = 0.003, wall = 0.025;
     const std::vector<Quantity> quantities{
-        {"SS_opposed_z", 4, 5},  {"SS_perp_x0_z0", 0, 4}, {"SS_perp_y0_z0", 2, 4},
-        {"VS_ownface_x0", 6, 0}, {"VS_ownface_y0", 6, 2}, {"VS_ownface_z0", 6, 4},
-        {"VS_ownface_x0", 0, 6}, {"VS_ownface_z0", 4, 6}, {"VV_self", 6, 6}};
+        {"SS_opposed_z", 4, 5, wall},    {"SS_perp_x0_z0", 0, 4, wall},
+        {"SS_perp_y0_z0", 2, 4, wall},   {"VS_ownface_x0", 6, 0, zone},
+        {"VS_ownface_y0", 6, 2, zone},   {"VS_ownface_z0", 6, 4, zone},
+        {"VS_ownface_x0", 0, 6, volume}, {"VS_ownface_z0", 4, 6, volume},
+        {"VV_self", 6, 6, self}};
     for (const std::string kappa : {"0.1", "0.5", "1", "2", "5"}) {
-        // Two cells a side: 8 patches a wall and 48 tets, 256 rays each.
         const auto sums =
-            test::group_exchange({.extinction = std::stod(kappa), .cells = 2}, 256, 1);
+            test::group_exchange({.extinction = std::stod(kappa), .cells = 4}, 256, 1);
         for (const auto& q : quantities) {
             const double value = test::reference_value(file, with(q.name, kappa));
             const double error = sums[q.from][q.to] / value - 1.0;
             INFO(q.name << " at kappa " << kappa << ": relative error " << error);
-            CHECK(std::abs(error) < 0.005);
+            CHECK(std::abs(error) < q.tolerance);
         }
     }
 }
@@ -61,7 +67,8 @@ TEST_CASE("Unit cubes apart: V_kV_m and V_kS_j of walked rows", "[exchange]") {
                 {.extinction = std::stod(kappa), .size = q.size, .cells = 1}, 4096, 1);
             const double value = test::reference_value(file, with(q.name, kappa));
             const double error = sums[q.from][q.to] / value - 1.0;
-            INFO(q.name << " at kappa " << kappa << ": relative error " << error);
+            WARN(q.name << " at kappa " << kappa << ": relative error " << error);
+            // Six tets of 4096 rays each, of which few reach a far cube: 0.02 % to 0.7 % measured.
             CHECK(std::abs(error) < 0.02);
         }
 }
