@@ -1,13 +1,15 @@
 // The one primitive: a ray through the base tetrahedra, tet by tet, to the facet it ends on.
 //
 // Method: vertices are projected along the ray; the ray leaves a tet by the face whose projection
-// holds
-//   the ray's point. The three edge tests are 2-D cross products of shared vertices, antisymmetric
-//   to the last bit and with ties broken by vertex index, so two tets never disagree about a shared
-//   edge: a ray through an edge or a vertex, or along a face, still has one next tet. Distances are
-//   interpolated between the face's vertices, hence bounded even where the face is seen edge-on.
+//   holds the ray's point. The edge tests are 2-D cross products of shared vertices whose signs are
+//   exact, ties included: those are broken as if the vertices had been moved a little, each by an
+//   amount of its own. So in every tet that is entered one face, and one only, is left by: also
+//   where the ray meets an edge or a vertex, or runs along a face. A start on a tet's rim whose
+//   projection misses the tet is moved into it by 1e-12 of its size or, if need be, more.
+//   Distances are interpolated between the face's vertices, hence bounded even where the face is
+//   seen edge-on.
 // Cost: one projection, three cross products and a division a tet.
-// Source: Platis & Theoharis (2003), Garrity (1990); tie rule after Edelsbrunner & Mücke (1990).
+// Source: Platis & Theoharis (2003), Garrity (1990); Edelsbrunner & Mücke (1990) for ties.
 #pragma once
 
 #include <algorithm>
@@ -69,10 +71,22 @@ inline double cross(const Projected& a, const Projected& b) {
     return a.u * b.v - a.v * b.u;
 }
 
-// Whether cross(a, b) counts as positive; a tie goes by index, so positive(a,b) != positive(b,a)
-// always.
+// Whether cross(a, b) counts as positive; positive(a, b) != positive(b, a) always.
+//
+// A difference of two rounded products has the sign of the exact one unless it is 0: then the
+// products' rounding errors decide. A true tie is broken by moving each vertex by (e, e²) with an e
+// that is much smaller for each higher index: the leading term of the cross product of lower a and
+// b is e_a b.v, then −e_a² b.u, −e_b a.v, −e_a² e_b. Since all tests speak of the same moved
+// vertices, they fit together. Source: Edelsbrunner & Mücke (1990), Simulation of simplicity.
 inline bool positive(double cross_ab, const Projected& a, const Projected& b) {
-    return cross_ab > 0.0 || (cross_ab == 0.0 && a.id < b.id);
+    if (cross_ab != 0.0) return cross_ab > 0.0;
+    const double error_1 = std::fma(a.u, b.v, -(a.u * b.v));
+    const double error_2 = std::fma(a.v, b.u, -(a.v * b.u));
+    if (error_1 != error_2) return error_1 > error_2;
+    if (b.id < a.id) return !positive(0.0, b, a);
+    if (b.v != 0.0) return b.v > 0.0;
+    if (b.u != 0.0) return b.u < 0.0;
+    return a.v < 0.0;
 }
 
 }  // namespace walk_detail

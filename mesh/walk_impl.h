@@ -19,42 +19,48 @@ struct Exit {
     }
 };
 
-inline double worst(const Exit& exit) {
-    return std::min({exit.ab, exit.bc, exit.ca});
-}
-
-// The exit of a tet whose origin lies inside, from all six edges.
-inline Exit exit_from_inside(const std::array<Projected, 4>& p) {
-    Exit best{};
-    double best_score = -std::numeric_limits<double>::infinity();
+// Whether the ray's point lies in a tet's projection, and if so the face by which it leaves: the
+// one that holds the point and is seen from behind. `entry` cannot be it.
+inline bool exit_of(const std::array<Projected, 4>& p, int entry, Exit& exit) {
     for (int k = 0; k < 4; ++k) {
+        if (k == entry) continue;
         const auto& f = face_corners[k];
         const auto &a = p[f[0]], &b = p[f[1]], &c = p[f[2]];
-        const Exit candidate{a, b, c, cross(a, b), cross(b, c), cross(c, a), k};
-        if (positive(candidate.ab, a, b) && positive(candidate.bc, b, c) &&
-            positive(candidate.ca, c, a))
-            return candidate;
-        if (const double score = worst(candidate); score > best_score) {
-            best_score = score;
-            best = candidate;
-        }
+        exit = {a, b, c, cross(a, b), cross(b, c), cross(c, a), k};
+        if (positive(exit.ab, a, b) && positive(exit.bc, b, c) && positive(exit.ca, c, a))
+            return true;
     }
-    return best;  // the origin lies a rounding error outside: the face it is nearest to being in
+    return false;
 }
 
-// The exit of a tet entered by face (a, b, c), with corners ia, ib, ic, and apex d.
+// The exit of a tet entered by face (a, b, c), with corners ia, ib, ic, and apex d. The face holds
+// the ray's point, so the tests against d cannot all agree and one of the other faces holds it.
 inline Exit exit_from_face(const Exit& in, const Projected& d, int ia, int ib, int ic) {
     const double ad = cross(in.a, d), bd = cross(in.b, d), cd = cross(in.c, d);
     const bool pa = positive(ad, in.a, d), pb = positive(bd, in.b, d), pc = positive(cd, in.c, d);
-    const Exit abd{in.a, in.b, d, in.ab, bd, -ad, ic};
-    const Exit bcd{in.b, in.c, d, in.bc, cd, -bd, ia};
-    const Exit cad{in.c, in.a, d, in.ca, ad, -cd, ib};
-    if (pb && !pa) return abd;
-    if (pc && !pb) return bcd;
-    if (pa && !pc) return cad;
-    // All three agree: only rounding at a start on the tet's rim leads here.
-    const double x = worst(abd), y = worst(bcd), z = worst(cad);
-    return x >= y && x >= z ? abd : y >= z ? bcd : cad;
+    if (pb && !pa) return {in.a, in.b, d, in.ab, bd, -ad, ic};
+    if (pc && !pb) return {in.b, in.c, d, in.bc, cd, -bd, ia};
+    return {in.c, in.a, d, in.ca, ad, -cd, ib};
+}
+
+// The first exit. Starts on a tet's rim move towards its centroid until the projection holds them.
+inline Exit first_exit(const BaseMesh& mesh, const Ray& ray, WalkStart start, Frame& project) {
+    const auto& ids = mesh.tets[start.tet.value];
+    Exit exit{};
+    int entry = start.face;
+    for (const double step : {0.0, 1e-12, 1e-9, 1e-6, 1e-3, 1.0}) {
+        if (step > 0.0) {
+            Point centroid(0.0);
+            for (const VertexId id : ids) centroid += 0.25 * mesh.points[id.value];
+            project.origin = ray.origin + step * (centroid - ray.origin);
+        }
+        if (exit_of({project(mesh, ids[0]), project(mesh, ids[1]), project(mesh, ids[2]),
+                     project(mesh, ids[3])},
+                    entry, exit))
+            break;
+        entry = WalkStart::inside;
+    }
+    return exit;
 }
 
 }  // namespace walk_detail
@@ -62,21 +68,10 @@ inline Exit exit_from_face(const Exit& in, const Projected& d, int ia, int ib, i
 template <Passes passes, class OnTet>
 WalkEnd walk(const BaseMesh& mesh, const Ray& ray, WalkStart start, OnTet&& on_tet) {
     using namespace walk_detail;
-    const Frame project(ray);
+    Frame project(ray);
     TetId tet = start.tet;
     double t = 0.0;
-
-    const auto corner = [&](int k) { return project(mesh, mesh.tets[tet.value][k]); };
-    Exit exit;
-    if (start.face == WalkStart::inside) {
-        exit = exit_from_inside({corner(0), corner(1), corner(2), corner(3)});
-    } else {
-        // Seen from inside, the entry face runs the other way round.
-        const auto& f = face_corners[start.face];
-        const Projected a = corner(f[0]), b = corner(f[2]), c = corner(f[1]);
-        const Exit in{a, b, c, cross(a, b), cross(b, c), cross(c, a), start.face};
-        exit = exit_from_face(in, corner(start.face), f[0], f[2], f[1]);
-    }
+    Exit exit = first_exit(mesh, ray, start, project);
 
     const std::size_t step_cap = 64 + 4 * mesh.tets.size();
     for (std::size_t step = 0; step < step_cap; ++step) {

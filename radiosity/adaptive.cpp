@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "mesh/input_error.h"
+#include "radiosity/balance.h"
 #include "radiosity/coarse_solution.h"
 #include "radiosity/refine.h"
 #include "radiosity/resources.h"
@@ -259,7 +260,7 @@ Solution Loop::collect(const CoarseSolution& coarse, IndirectRefiner& indirect) 
                 solution.direct.at(node, b) = direct_field(node, b);
             solution.indirect.at(node, b) = indirect.field(node, b);
         }
-        error = static_cast<float>(0.5 * (direct_.error(node) + indirect.error(node)));
+        error = static_cast<float>(direct_.error(node) + indirect.error(node));
     };
     for (const ZoneId z : mesh_.zones())
         if (forest.is_leaf(z)) fill(z, solution.zone_error[z.value]);
@@ -285,6 +286,11 @@ Report Loop::finish(const CoarseSolution& coarse) {
         report.reciprocity_error = std::max(report.reciprocity_error,
                                             reciprocity_error(coarse.areas(b), coarse.elements()));
     }
+    const Balance power =
+        balance(*enclosure_, coarse, incident_direct_, light_, 16384, options_.seed);
+    report.net_power = power.net_power;
+    report.energy_balance = power.energy_balance;
+    report.direct_power_check = power.direct_power_check;
     report.warnings = enclosure_->warnings;
     if (limited_)
         report.warnings.push_back(

@@ -46,8 +46,8 @@ double reciprocity_error(const ExchangeAreas& areas, const Elements& elements) {
             const std::uint32_t j = areas.columns[k];
             if (j == elements.outside()) continue;
             const double back = entry(j, static_cast<std::uint32_t>(i));
-            // A pair seen from one end only is met once, one seen from both twice.
-            difference += std::abs(areas.values[k] - back) * (back > 0.0 ? 0.5 : 1.0);
+            // A pair that is seen from one end only is met once here but twice in the sum.
+            difference += std::abs(areas.values[k] - back) * (back > 0.0 ? 1.0 : 2.0);
             total += areas.values[k];
         }
     return total > 0.0 ? difference / total : 0.0;

@@ -6,8 +6,6 @@
 namespace tyndall::radiosity {
 namespace {
 
-constexpr double mean_square_share = 0.25;  // as for direct light
-
 // A departure within this many times the gather's noise is taken for noise: it joins three samples
 // of equal variance with weights 1, −1/2, −1/2, hence √1.5 for one standard deviation.
 constexpr double noise_factor = 2.0 * 1.2247;
@@ -45,7 +43,7 @@ std::pair<double, std::array<int, 2>> IndirectRefiner::measure(Node node) {
         noise[b] = noise_factor * std::sqrt(noise[b] / static_cast<double>(all.size()));
     }
 
-    double worst = 0.0;
+    double worst = 0.0, square = 0.0;
     std::array<int, 2> edge = mesh_.forest().longest_edge(node);
     std::size_t next = corners.size();
     for (int i = 0; i < count; ++i)
@@ -58,6 +56,7 @@ std::pair<double, std::array<int, 2>> IndirectRefiner::measure(Node node) {
                     0.5 * (samples.indirect(corners[i], b) + samples.indirect(corners[j], b));
                 error += std::max(0.0, std::abs(departure) - noise[b]);
             }
+            square += error * error;
             const double length =
                 glm::distance(mesh_.forest().point(vertices[i]), mesh_.forest().point(vertices[j]));
             if (error > worst && length > 0.35 * mesh_.forest()[node].longest_edge) {
@@ -65,7 +64,8 @@ std::pair<double, std::array<int, 2>> IndirectRefiner::measure(Node node) {
                 edge = {i, j};
             }
         }
-    return {worst / static_cast<double>(enclosure_.bands), edge};
+    const double points = 0.5 * count * (count - 1);
+    return {std::sqrt(square / points) / static_cast<double>(enclosure_.bands), edge};
 }
 
 RefineResult IndirectRefiner::refine(Fields sources, double detail, const Importance& importance,
@@ -82,9 +82,6 @@ RefineResult IndirectRefiner::refine(Fields sources, double detail, const Import
         collect(patches, ids);
         result.rays += mesh_.samples().gather_at(
             ids, GatherScene(enclosure_, forest, sources, detail), points_, seed_);
-        if (getenv("TYD"))
-            fprintf(stderr, "indirect: frontier %zu zones %zu patches, rays %zu leaves %zu\n",
-                    zones.size(), patches.size(), result.rays, mesh_.leaf_count());
         for (auto* flags : {&zone_settled_, &patch_settled_})
             flags->resize(std::max(forest.zone_count(), forest.patch_count()));
         for (auto* errors : {&zone_error_, &patch_error_})
@@ -103,7 +100,7 @@ RefineResult IndirectRefiner::refine(Fields sources, double detail, const Import
             const auto [error, edge] = measure(z);
             const double a =
                 mean_over_bands(enclosure_.media[medium_of(enclosure_, forest, z)].albedo);
-            const double share = mean_square_share * importance.of(z) * a * a * error * error;
+            const double share = importance.of(z) * a * a * error * error;
             if (!descend || share <= threshold || forest[z].longest_edge <= limits.smallest_edge) {
                 zone_settled_[z.value] = true;
                 zone_error_[z.value] = static_cast<float>(error);
@@ -119,7 +116,7 @@ RefineResult IndirectRefiner::refine(Fields sources, double detail, const Import
             const double error = measure(p).first;
             const double a =
                 mean_over_bands(enclosure_.sides[side_of(enclosure_, forest, p)].reflectance);
-            const double share = mean_square_share * importance.of(p) * a * a * error * error;
+            const double share = importance.of(p) * a * a * error * error;
             if (!descend || share <= threshold || forest[p].longest_edge <= limits.smallest_edge) {
                 patch_settled_[p.value] = true;
                 patch_error_[p.value] = static_cast<float>(error);

@@ -1,0 +1,67 @@
+// The same bits at any number of threads.
+#include <tbb/global_control.h>
+
+#include <cstring>
+
+#include "mesh/catch.h"
+#include "radiosity/adaptive.h"
+#include "radiosity/exchange_walked.h"
+#include "render/line_of_sight.h"
+#include "support/rooms.h"
+
+using namespace tyndall;
+using namespace tyndall::radiosity;
+
+namespace {
+
+const SolveOptions small{.error = 0.1, .max_elements = 3000, .rays = 64, .gather_rays = 64};
+
+struct Everything {
+    ExchangeAreas areas;
+    Solution solution;
+    render::Image picture;
+};
+
+Everything at_threads(std::size_t threads) {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+    const auto enclosure = std::make_shared<const Enclosure>(make_enclosure(test::slit_room()));
+    Everything e;
+    const Forest forest(enclosure->mesh);
+    const auto elements = elements_of_leaves(*enclosure, forest);
+    e.areas =
+        all_rows(exchange_walked, {*enclosure, forest, elements}, {.rays = 256, .progress = {}});
+    render::Camera camera;
+    camera.eye = {2.8, 1.9, 1.0};
+    camera.target = {0.5, 0.8, 1.0};
+    camera.fov_y = 1.0;
+    camera.width = 80, camera.height = 60;
+    e.solution = solve_adaptively(enclosure, small, camera.view());
+    e.picture = render::line_of_sight(e.solution, camera, {.samples = 4});
+    return e;
+}
+
+bool same_bits(const std::vector<Affine>& a, const std::vector<Affine>& b) {
+    return a.size() == b.size() &&
+           (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Affine)) == 0);
+}
+
+}  // namespace
+
+TEST_CASE("Rows, fields and picture have the same bits at one thread and at two", "[threads]") {
+    const Everything one = at_threads(1), two = at_threads(2);
+    CHECK(one.areas.starts == two.areas.starts);
+    CHECK(one.areas.columns == two.areas.columns);
+    CHECK(one.areas.values == two.areas.values);
+    CHECK(one.solution.forest.zone_count() == two.solution.forest.zone_count());
+    CHECK(one.solution.forest.patch_count() == two.solution.forest.patch_count());
+    CHECK(one.solution.coarse.radiance == two.solution.coarse.radiance);
+    CHECK(same_bits(one.solution.direct.zone, two.solution.direct.zone));
+    CHECK(same_bits(one.solution.direct.patch, two.solution.direct.patch));
+    CHECK(same_bits(one.solution.indirect.zone, two.solution.indirect.zone));
+    CHECK(same_bits(one.solution.indirect.patch, two.solution.indirect.patch));
+    REQUIRE(one.picture.layers.size() == two.picture.layers.size());
+    for (std::size_t l = 0; l < one.picture.layers.size(); ++l) {
+        INFO(one.picture.layers[l].name);
+        CHECK(one.picture.layers[l].values == two.picture.layers[l].values);
+    }
+}

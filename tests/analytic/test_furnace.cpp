@@ -1,0 +1,164 @@
+// The furnace: in an enclosure all at one temperature everything has radiance 1.
+#include <tbb/parallel_for.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "cli/scene_file.h"
+#include "mesh/catch.h"
+#include "radiosity/adaptive.h"
+#include "radiosity/coarse_solution.h"
+#include "radiosity/exchange_walked.h"
+#include "radiosity/refine.h"
+
+using namespace tyndall;
+using namespace tyndall::radiosity;
+
+namespace {
+
+std::vector<std::filesystem::path> scene_files() {
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry :
+         std::filesystem::directory_iterator(TYNDALL_SOURCE_DIR "/examples/scenes"))
+        if (entry.path().extension() == ".toml") files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    return files;
+}
+
+struct Furnace {
+    Enclosure enclosure;
+    std::vector<bool> lamp;  // of each side: whether it emits in the scene
+};
+
+Furnace furnace(const std::filesystem::path& path) {
+    const auto file = cli::read_scene_file(path);
+    Furnace result{make_enclosure(file.scene), {}};
+    auto& e = result.enclosure;
+    for (auto& side : e.sides) {
+        result.lamp.push_back(*std::max_element(side.emission.begin(), side.emission.end()) > 0.0);
+        for (std::size_t b = 0; b < e.bands; ++b) side.emission[b] = 1.0 - side.reflectance[b];
+    }
+    for (auto& medium : e.media)
+        for (std::size_t b = 0; b < e.bands; ++b) medium.emission[b] = 1.0 - medium.albedo[b];
+    e.environment.assign(e.bands, 1.0);
+    e.lights.clear();
+    return result;
+}
+
+// Few elements and rays: what is tested is exact at any number.
+const SolveOptions quick{.refinement = Refinement::none,
+                         .direct_light = DirectLightMode::rows,
+                         .rays = 64,
+                         .gather_rays = 64,
+                         .solver_tolerance = 1e-9};
+
+// Capacity-weighted root mean square of x − 1, over all bands.
+double rms_departure(const Elements& e, const std::vector<double>& radiance) {
+    double sum = 0.0, weight = 0.0;
+    for (std::size_t k = 0; k < radiance.size(); ++k) {
+        sum += e.capacity[k] * (radiance[k] - 1.0) * (radiance[k] - 1.0);
+        weight += e.capacity[k];
+    }
+    return std::sqrt(sum / weight);
+}
+
+double largest_departure(const std::vector<double>& values) {
+    double most = 0.0;
+    for (const double v : values) most = std::max(most, std::abs(v - 1.0));
+    return most;
+}
+
+// x where the sides that are lamps in the scene are counted in closed form and all else in rows.
+std::vector<double> with_lamps_split_off(const Furnace& furnace, std::size_t rays, Elements& out) {
+    const Enclosure& whole = furnace.enclosure;
+    Enclosure lamps = whole;
+    for (std::size_t s = 0; s < lamps.sides.size(); ++s)
+        if (!furnace.lamp[s]) lamps.sides[s].emission.assign(whole.bands, 0.0);
+    const DirectLight light(lamps);
+    ElementMesh mesh(whole);
+    mesh.refine_to({0.0, 300, 600});
+    DirectRefiner direct(lamps, mesh, light);
+    direct.update();
+    const auto e = elements_of_leaves(whole, mesh.forest());
+    const auto lamp_emission = elements_of_leaves(lamps, mesh.forest()).emission;
+    std::vector<double> x(e.emission.size());
+    for (std::size_t b = 0; b < e.bands; ++b) {
+        const auto areas = all_rows(exchange_walked, {whole, mesh.forest(), e},
+                                    {.band = b, .rays = rays, .progress = {}});
+        std::vector<double> source(e.size());
+        for (std::size_t i = 0; i < e.size(); ++i) {
+            const std::size_t k = i * e.bands + b;
+            const std::size_t last = areas.starts[i + 1] - 1;
+            const double outside =
+                areas.columns[last] == e.outside() ? areas.values[last] / e.capacity[k] : 0.0;
+            const double incident =
+                e.is_patch(i) ? direct.mean(e.patches[i], b) : direct.mean(e.zone(i), b);
+            const double split = e.is_patch(i) ? lamp_emission[k] : 0.0;
+            source[i] = e.emission[k] - split + e.scatter[k] * (incident + outside);
+        }
+        const auto result = solve_gmres({e, areas, b, source}, {1e-9, 200});
+        for (std::size_t i = 0; i < e.size(); ++i) {
+            const std::size_t k = i * e.bands + b;
+            x[k] = result.radiance[i] + (e.is_patch(i) ? lamp_emission[k] : 0.0);
+        }
+    }
+    out = e;
+    return x;
+}
+
+}  // namespace
+
+TEST_CASE("Furnace: everything in rows is 1", "[furnace]") {
+    for (const auto& path : scene_files()) {
+        INFO(path.filename());
+        const auto enclosure = std::make_shared<const Enclosure>(furnace(path).enclosure);
+        const Solution solution = solve_adaptively(enclosure, quick);
+        // Rows close to 1e-12 and the residual is 1e-9; 1/(1 − a) makes up to a hundred times that.
+        CHECK(largest_departure(solution.coarse.radiance) < 1e-6);
+        CHECK(largest_departure(solution.coarse.incident) < 1e-6);
+        CHECK(solution.report.closure_error < 1e-12);
+        // What is gathered of it, and interpolated, is 1 as well.
+        double most = 0.0;
+        const Forest& forest = solution.forest;
+        for (std::size_t b = 0; b < enclosure->bands; ++b) {
+            for (std::size_t z = 0; z < forest.zone_count(); ++z)
+                if (forest.is_leaf(ZoneId(z)) && medium_of(*enclosure, forest, ZoneId(z)) != none)
+                    for (const auto v : forest[ZoneId(z)].corners)
+                        most = std::max(
+                            most,
+                            std::abs(solution.indirect.at(ZoneId(z), b).at(forest.point(v)) - 1.0));
+            for (std::size_t p = 0; p < forest.patch_count(); ++p)
+                if (forest.is_leaf(PatchId(p)) && side_of(*enclosure, forest, PatchId(p)) != none)
+                    for (const auto v : forest[PatchId(p)].corners)
+                        most = std::max(
+                            most, std::abs(solution.indirect.at(PatchId(p), b).at(forest.point(v)) -
+                                           1.0));
+        }
+        CHECK(most < 1e-6);
+    }
+}
+
+TEST_CASE("Furnace: lamps split off", "[furnace]") {
+    for (const auto& path : scene_files()) {
+        INFO(path.filename());
+        const Furnace f = furnace(path);
+        if (std::count(f.lamp.begin(), f.lamp.end(), true) == 0) continue;
+        std::array<double, 2> error;
+        Elements elements;
+        for (const int k : {0, 1})
+            error[k] = rms_departure(elements, with_lamps_split_off(f, k ? 1024 : 64, elements));
+        WARN("RMS departure from 1: " << error[0] << " at 64 rays, " << error[1] << " at 1024");
+    }
+}
+
+TEST_CASE("Furnace: all walls split off", "[furnace]") {
+    for (const auto& path : scene_files()) {
+        INFO(path.filename());
+        auto options = quick;
+        options.direct_light = DirectLightMode::closed_form;
+        const auto enclosure = std::make_shared<const Enclosure>(furnace(path).enclosure);
+        const Solution solution = solve_adaptively(enclosure, options);
+        const double error = rms_departure(solution.coarse.elements, solution.coarse.radiance);
+        WARN("RMS departure from 1: " << error);
+    }
+}

@@ -1,0 +1,133 @@
+#include "radiosity/exchange_walked.h"
+
+#include <cmath>
+
+#include "mesh/catch.h"
+#include "support/cube.h"
+#include "support/random_rays.h"
+
+using namespace tyndall;
+using namespace tyndall::radiosity;
+
+namespace {
+
+// A cube whose medium, walls and openings make a row meet everything: a partition, an interface
+// with another medium behind it, an opening in the hull.
+Enclosure crowded() {
+    auto enclosure = test::box_enclosure({{{0, 1, 2}, {0, 1, 2}, {0, 1, 2}}},
+                                         [](mesh::Point c, int axis) -> std::optional<test::Face> {
+                                             if (axis == 2 && c.z == 2.0 && c.x < 1.0)
+                                                 return std::nullopt;  // open
+                                             if (axis == 0 && c.x == 1.0 && c.z < 1.0)
+                                                 return test::Face{mesh::Opacity::opaque, 0, 1};
+                                             if (axis == 0 && c.x == 1.0)
+                                                 return test::Face{mesh::Opacity::interface};
+                                             if (c[axis] == 0.0)
+                                                 return test::Face{mesh::Opacity::opaque, 0, none};
+                                             if (c[axis] == 2.0)
+                                                 return test::Face{mesh::Opacity::opaque, none, 0};
+                                             return std::nullopt;
+                                         });
+    enclosure.sides = {{"wall", 0, mesh::Side::front, {0.5}, {0.0}, 24.0},
+                       {"back", 1, mesh::Side::front, {0.2}, {0.0}, 2.0}};
+    enclosure.media = {{"haze", {0.3}, {0.9}, {0.0}, {0.03}}};
+    // The right half is empty.
+    REQUIRE(enclosure.mesh.region_count == 2);
+    const auto& mesh = enclosure.mesh;
+    enclosure.region_medium[mesh.regions[test::tet_at(mesh, {0.3, 0.3, 0.3}).value].value] = 0;
+    return enclosure;
+}
+
+}  // namespace
+
+TEST_CASE("Walked rows close, and no entry is negative", "[exchange]") {
+    const auto enclosure = crowded();
+    Forest forest(enclosure.mesh);
+    test::Random random(1);
+    for (int k = 0; k < 60; ++k) {
+        ZoneId zone(test::index_below(random, forest.zone_count()));
+        if (!forest.is_leaf(zone)) continue;
+        const auto [i, j] = forest.longest_edge(zone);
+        forest.bisect(zone, i, j);
+    }
+    for (int k = 0; k < 60; ++k) {
+        PatchId patch(test::index_below(random, forest.patch_count()));
+        if (!forest.is_leaf(patch)) continue;
+        const auto [i, j] = forest.longest_edge(patch);
+        forest.bisect(patch, i, j);
+    }
+    const auto elements = elements_of_leaves(enclosure, forest);
+    const auto areas =
+        all_rows(exchange_walked, {enclosure, forest, elements}, {.rays = 128, .progress = {}});
+    REQUIRE(areas.rows() == elements.size());
+    // Each of 128 rays gives away what it has; what remains is rounding.
+    CHECK(closure_error(areas, elements, 0) < 1e-12);
+    bool ascending = true;
+    double least = 0.0, outside = 0.0;
+    for (std::size_t i = 0; i < areas.rows(); ++i)
+        for (std::size_t k = areas.starts[i]; k < areas.starts[i + 1]; ++k) {
+            least = std::min(least, areas.values[k]);
+            if (areas.columns[k] == elements.outside()) outside += areas.values[k];
+            if (k > areas.starts[i])
+                ascending = ascending && areas.columns[k - 1] < areas.columns[k];
+        }
+    CHECK(least >= 0.0);
+    CHECK(ascending);
+    CHECK(outside > 0.0);
+}
+
+TEST_CASE("A wall does not exchange with its own plane", "[exchange]") {
+    const auto sums = test::group_exchange({.extinction = 0.5, .cells = 2}, 64, 1);
+    for (std::size_t wall = 0; wall < 6; ++wall) CHECK(sums[wall][wall] == 0.0);
+}
+
+TEST_CASE("Rows asked for are the rows given, whatever the order", "[exchange]") {
+    const auto enclosure = crowded();
+    const Forest forest(enclosure.mesh);
+    const auto elements = elements_of_leaves(enclosure, forest);
+    const Discretization d{enclosure, forest, elements};
+    const auto all = all_rows(exchange_walked, d, {.rays = 64, .progress = {}});
+    const std::vector<ElementId> some{ElementId(7), ElementId(elements.size() - 1), ElementId(0)};
+    std::size_t next = 0;
+    exchange_walked(
+        d, some, {.rays = 64, .progress = {}},
+        [&](ElementId id, std::span<const std::uint32_t> columns, std::span<const double> values) {
+            REQUIRE(id == some[next++]);
+            const auto begin = all.starts[id.value];
+            REQUIRE(columns.size() == all.starts[id.value + 1] - begin);
+            for (std::size_t k = 0; k < columns.size(); ++k) {
+                REQUIRE(columns[k] == all.columns[begin + k]);
+                REQUIRE(values[k] == all.values[begin + k]);
+            }
+        });
+    CHECK(next == some.size());
+}
+
+TEST_CASE("Reciprocity comes with rays", "[exchange]") {
+    const auto enclosure = crowded();
+    const Forest forest(enclosure.mesh);
+    const auto elements = elements_of_leaves(enclosure, forest);
+    const auto error = [&](std::size_t rays) {
+        return reciprocity_error(all_rows(exchange_walked, {enclosure, forest, elements},
+                                          {.rays = rays, .progress = {}}),
+                                 elements);
+    };
+    const double coarse = error(64), fine = error(4096);
+    INFO(coarse << " " << fine);
+    // Independent rays would have the rate 1/2; Sobol' points do better than that.
+    CHECK(std::log(fine / coarse) / std::log(64.0) < -0.55);
+}
+
+TEST_CASE("Closure and reciprocity errors are what their headers say", "[exchange]") {
+    Elements elements;
+    elements.patches.resize(3);
+    elements.capacity = {2.0, 4.0, 1.0};
+    // S_01 = 1, S_10 = 3, S_12 = 1 without a S_21; outside is column 3.
+    ExchangeAreas areas;
+    areas.starts = {0, 2, 4, 5};
+    areas.columns = {1, 3, 0, 2, 3};
+    areas.values = {1.0, 1.0, 3.0, 1.0, 0.5};
+    CHECK(closure_error(areas, elements, 0) == 0.5);
+    // Σ_ij |S_ij − S_ji| = 2·2 + 2·1 over Σ S_ij = 5.
+    CHECK(reciprocity_error(areas, elements) == Approx(6.0 / 5.0));
+}
