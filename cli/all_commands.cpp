@@ -4,6 +4,10 @@ namespace tyndall::cli {
 
 void add_all_commands(Shell& shell) {
     add_run_command(shell);
+    add_check_command(shell);
+    add_solve_command(shell);
+    add_render_command(shell);
+    add_probe_command(shell);
     add_compare_command(shell);
 }
 

@@ -58,4 +58,16 @@ void add_compare_command(Shell& shell);
 // run_command.cpp
 void add_run_command(Shell& shell);
 
+// run_command.cpp too
+void add_solve_command(Shell& shell);
+
+// render_command.cpp
+void add_render_command(Shell& shell);
+
+// probe_command.cpp
+void add_probe_command(Shell& shell);
+
+// check_command.cpp
+void add_check_command(Shell& shell);
+
 }  // namespace tyndall::cli

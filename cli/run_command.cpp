@@ -1,71 +1,94 @@
-#include <fmt/format.h>
-#include <tbb/global_control.h>
-#include <tbb/info.h>
-
 #include <CLI/CLI.hpp>
 #include <filesystem>
 
 #include "cli/commands.h"
-#include "cli/progress.h"
-#include "cli/scene_file.h"
-#include "radiosity/adaptive.h"
+#include "cli/job.h"
+#include "cli/run_report.h"
+#include "mesh/file_bytes.h"
 #include "radiosity/resources.h"
+#include "radiosity/solution_file.h"
 #include "render/image_files.h"
-#include "render/line_of_sight.h"
 
 namespace tyndall::cli {
 namespace {
+
 namespace fs = std::filesystem;
 
 struct RunOptions {
     std::string scene, out;
 };
 
-int run(const RunOptions& options, const CommonFlags& flags) {
-    std::vector<std::string> overrides;
-    for (const auto& s : flags.settings) overrides.push_back(s.key + "=" + s.value);
-    SceneFile file = read_scene_file(options.scene, overrides);
-    if (flags.seed) file.solve.seed = file.render.seed = *flags.seed;
-    tbb::global_control control(tbb::global_control::max_allowed_parallelism,
-                                flags.threads ? flags.threads : tbb::info::default_concurrency());
+enum class Picture { wanted, not_wanted };
+
+// The picture, or why there is none.
+std::string write_picture(const SceneFile& file, const radiosity::Solution& solution,
+                          const fs::path& folder, ProgressLine& progress, RunFacts& facts) {
+    if (file.cameras.empty()) return "no picture: the scene has no camera.";
+    const std::string stopped = "no picture: stopped on request. Make one: tyndall render '" +
+                                folder.string() + "' -o image.exr.";
+    if (progress.stopped()) return stopped;
+    const auto& camera = find_camera(file.cameras, file.view_camera);
+    const auto image = make_picture(solution, camera, file.render, progress);
+    if (progress.stopped()) return stopped;
+    render::write_image(folder / "image.exr", image);
+    facts.written.push_back(folder / "image.exr");
+    render::write_image(folder / "image.png", render::tone_map(image, file.tone_map));
+    facts.written.push_back(folder / "image.png");
+    return "";
+}
+
+int run(const RunOptions& options, const CommonFlags& flags, Picture picture) {
+    RunFacts facts{options.scene, 1, threads_in_use(), radiosity::wall_seconds(), {}};
+    const SceneFile file = load_scene(options.scene, flags);
+    facts.seed = file.solve.seed;
+    const fs::path folder(options.out);
+    prepare_folder(folder);
     ProgressLine progress(flags);
-    auto enclosure =
-        std::make_shared<const radiosity::Enclosure>(radiosity::make_enclosure(file.scene));
-    std::optional<radiosity::View> view;
-    for (const auto& camera : file.cameras)
-        if (camera.name == file.view_camera) view = camera.view();
-    const auto solution =
-        radiosity::solve_adaptively(enclosure, file.solve, view, progress.callback());
-    fs::create_directories(options.out);
-    progress.clear();
-    for (const auto& pass : solution.report.passes)
-        fmt::print(
-            "{:20} {:7} patches {:7} zones {:9} rays {:6.2f} cpu-s {:6.2f} s {:6.1f} MB error "
-            "{:.5f}\n",
-            pass.stage, pass.patches, pass.zones, pass.rays, pass.cpu_seconds, pass.wall_seconds,
-            pass.memory_bytes / 1e6, pass.estimated_error);
-    if (!file.cameras.empty()) {
-        const auto image =
-            render::line_of_sight(solution, file.cameras.front(), file.render, progress.callback());
-        render::write_image(fs::path(options.out) / "image.exr", image);
-        render::write_image(fs::path(options.out) / "image.png",
-                            render::tone_map(image, file.tone_map));
+    auto solution = solve_scene(file, progress);
+    const auto solution_file = folder / "solution.vtkhdf";
+    radiosity::write_solution(solution_file, solution, attachments_json(file));
+    facts.written.push_back(solution_file);
+    if (picture == Picture::wanted) {
+        const auto missing = write_picture(file, solution, folder, progress, facts);
+        if (!missing.empty()) solution.report.warnings.push_back(missing);
     }
-    fmt::print("cpu {:.2f} s, peak {:.0f} MB\n", radiosity::cpu_seconds(),
-               radiosity::peak_memory_bytes() / 1e6);
+    facts.written.push_back(folder / "report.json");
+    const auto report = report_text(solution.report, facts);
+    mesh::write_file(folder / "report.json", report);
+    progress.clear();
+    if (flags.json)
+        write_output(report);
+    else if (!flags.quiet)
+        write_output(summary_text(solution.report, facts));
     return 0;
 }
+
+void add(Shell& shell, const char* name, const char* purpose, const char* examples,
+         Picture picture) {
+    const auto options = std::make_shared<RunOptions>();
+    auto& command = shell.add_command(
+        name, purpose, examples,
+        [options, picture](const CommonFlags& flags) { return run(*options, flags, picture); });
+    add_seed_flag(command, shell.flags());
+    add_set_flag(command, shell.flags());
+    command.add_option("SCENE", options->scene, "Scene file")->required();
+    command.add_option("-o,--output", options->out, "Folder for the results")->required();
+}
+
 }  // namespace
 
 void add_run_command(Shell& shell) {
-    auto options = std::make_shared<RunOptions>();
-    auto& command =
-        shell.add_command("run", "Solve a scene and render it: the main job",
-                          "  tyndall run examples/scenes/window_shafts.toml -o out/window_shafts",
-                          [options](const CommonFlags& flags) { return run(*options, flags); });
-    add_seed_flag(command, shell.flags());
-    add_set_flag(command, shell.flags());
-    command.add_option("scene", options->scene, "scene file")->required();
-    command.add_option("-o,--output", options->out, "folder for the results")->required();
+    add(shell, "run", "Mesh, solve adaptively, render, report: the main job",
+        R"(  tyndall run examples/scenes/window_shafts.toml -o out/
+  tyndall run room.toml -o fine/ --set solve.error=0.003 --set camera.main.width=1280)",
+        Picture::wanted);
 }
+
+void add_solve_command(Shell& shell) {
+    add(shell, "solve", "The same without a picture",
+        R"(  tyndall solve room.toml -o out/
+  tyndall solve room.toml -o out/ --set solve.camera= --json)",
+        Picture::not_wanted);
+}
+
 }  // namespace tyndall::cli

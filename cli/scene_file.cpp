@@ -159,6 +159,31 @@ SceneFile read_scene_file(const std::filesystem::path& path,
     return file;
 }
 
+ViewSettings read_view_settings(const std::string& toml,
+                                const std::vector<std::string>& overrides) {
+    const std::string name = "the solution's scene";
+    toml::table table;
+    try {
+        table = toml::parse(toml, name);
+    } catch (const toml::parse_error& error) {
+        fail_at(place_of(error.source()), fmt::format("{}. Solve again.", error.description()));
+    }
+    for (const std::string& override : overrides) {
+        if (!override.starts_with("render.") && !override.starts_with("camera."))
+            fail_at("--set " + override,
+                    "the solution is there already: only keys of render and camera can be set, "
+                    "such as render.samples=64 or camera.main.width=1280.");
+        apply_override(table, override);
+    }
+    const TableReader root(table, keys::root(), "the scene");
+    SceneFile file;
+    Names cameras("camera");
+    read_cameras(root, cameras, file);
+    const Settings settings = read_settings(root);
+    return {std::move(file.cameras), view_camera(root, settings.camera, cameras), settings.render,
+            settings.tone_map};
+}
+
 std::string scene_file_reference() {
     std::string text;
     for (const KeyTable* table :

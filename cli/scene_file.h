@@ -30,6 +30,18 @@ struct SceneFile {
 SceneFile read_scene_file(const std::filesystem::path& path,
                           const std::vector<std::string>& overrides = {});
 
+// What of a scene a picture depends on, beyond the solution.
+struct ViewSettings {
+    std::vector<render::Camera> cameras;
+    std::string view_camera;  // as in SceneFile
+    render::RenderOptions render;
+    render::ToneMapOptions tone_map;
+};
+
+// Reads cameras and [render] of a scene's text (SceneFile::effective_toml), with overrides of
+// render.* and camera.* keys. Throws mesh::InputError as read_scene_file does.
+ViewSettings read_view_settings(const std::string& toml, const std::vector<std::string>& overrides);
+
 // Every key a scene file may hold, as Markdown tables: the reference in the documentation.
 std::string scene_file_reference();
 

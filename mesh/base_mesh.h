@@ -12,7 +12,7 @@ namespace tyndall::mesh {
 // A triangle on which a surface, an opening or the hull lies; it separates two tets.
 struct BaseFacet {
     std::array<VertexId, 3> corners;  // counter-clockwise seen from its front
-    FacetId source;  // facet of the conforming complex its centroid lies on
+    FacetId source;                   // facet of the conforming complex its centroid lies on
     Opacity opacity = Opacity::opaque;
     std::array<TetId, 2> tets;  // on its front and on its back side; none beyond the hull
 };

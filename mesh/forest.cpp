@@ -152,6 +152,14 @@ void Forest::replay(const std::vector<Bisection>& history) {
     }
 }
 
+std::vector<Forest::VertexEdge> Forest::vertex_edges() const {
+    const std::size_t base = points_.size() - edge_vertices_.size();
+    std::vector<VertexEdge> edges(edge_vertices_.size());
+    for (const auto& [key, vertex] : edge_vertices_)
+        edges[vertex.value - base] = {key.a, key.b, key.t};
+    return edges;
+}
+
 Point Forest::centroid(ZoneId id) const {
     const auto& c = (*this)[id].corners;
     return 0.25 * (point(c[0]) + point(c[1]) + point(c[2]) + point(c[3]));

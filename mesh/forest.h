@@ -104,6 +104,13 @@ class Forest {
     };
     const std::vector<Bisection>& history() const { return history_; }
     void replay(const std::vector<Bisection>& history);
+    // The edges that the vertices beyond the base mesh's lie on, in the vertices' order. Making
+    // them by vertex_on_edge in this order before a replay gives every vertex its old index.
+    struct VertexEdge {
+        VertexId a, b;
+        double t;
+    };
+    std::vector<VertexEdge> vertex_edges() const;
 
   private:
     float edge_bound(const VertexId* corners, int count) const;

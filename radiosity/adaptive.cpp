@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "mesh/input_error.h"
+#include "radiosity/balance.h"
 #include "radiosity/coarse_solution.h"
 #include "radiosity/refine.h"
 #include "radiosity/resources.h"
@@ -14,7 +15,7 @@ namespace {
 
 // How the squared error goal is shared out; the rest is for the noise of rows and gathers.
 constexpr double direct_share = 0.5;
-constexpr double indirect_share = 0.25;
+constexpr double indirect_share = 0.5;
 
 // A gather's zone may stand for its leaves when it is no longer than this many spacings of its
 // rays.
@@ -95,13 +96,11 @@ class Loop {
     }
     template <class Node>
     Affine direct_field(Node node, std::size_t band);
-    // Shifts a leaf's function to the mean of its direct light.
+    // A leaf's linear function of direct light with its mean kept.
     template <class Node>
-    void keep_mean(Node node, Fields& fields) {
-        for (std::size_t b = 0; b < fields.bands; ++b) {
-            Affine& f = fields.at(node, b);
-            f.constant += direct_.mean(node, b) - f.at(mesh_.forest().centroid(node));
-        }
+    Affine direct_with_mean(Node node, std::size_t band) {
+        return with_mean(direct_field(node, band), mesh_.forest().centroid(node),
+                         direct_.mean(node, band));
     }
 
     void note(const RefineResult& result) {
@@ -187,7 +186,7 @@ void Loop::rate(const CoarseSolution& coarse) {
         return;
     }
     const Fields sources = coarse_sources(coarse);
-    const GatherScene scene{*enclosure_, mesh_.forest(), sources, 0.0};
+    const GatherScene scene(*enclosure_, mesh_.forest(), sources);
     constexpr int across = 32, down = 24;
     Spectrum radiance(e.bands);
     double sum = 0.0;
@@ -223,11 +222,10 @@ Fields Loop::coarse_sources(const CoarseSolution& coarse) {
     const Forest& forest = mesh_.forest();
     Fields sources;
     sources.resize(forest, e.bands);
-    const auto fill = [&](auto node, std::uint32_t element, Point centroid) {
+    const auto fill = [&](auto node, std::uint32_t element) {
         for (std::size_t b = 0; b < e.bands; ++b) {
             const std::size_t k = element * e.bands + b;
-            Affine f = direct_field(node, b);
-            f.constant += direct_.mean(node, b) - f.at(centroid);
+            const Affine f = direct_with_mean(node, b);
             const double a = e.scatter[k];
             sources.at(node, b) = {a * f.gradient,
                                    e.emission[k] - coarse.split_emission(element, b) +
@@ -235,9 +233,9 @@ Fields Loop::coarse_sources(const CoarseSolution& coarse) {
         }
     };
     for (const ZoneId z : mesh_.zones())
-        if (forest.is_leaf(z)) fill(z, element_above(z, e.of_zone), forest.centroid(z));
+        if (forest.is_leaf(z)) fill(z, element_above(z, e.of_zone));
     for (const PatchId p : mesh_.patches())
-        if (forest.is_leaf(p)) fill(p, element_above(p, e.of_patch), forest.centroid(p));
+        if (forest.is_leaf(p)) fill(p, element_above(p, e.of_patch));
     coarsen(forest, sources);
     return sources;
 }
@@ -254,13 +252,15 @@ Solution Loop::collect(const CoarseSolution& coarse, IndirectRefiner& indirect) 
     solution.patch_error.resize(forest.patch_count());
     const auto fill = [&](auto node, float& error) {
         for (std::size_t b = 0; b < bands; ++b) {
-            solution.direct.at(node, b) = direct_field(node, b);
+            // Zones are seen as integrals along rays, where the mean counts; patches are seen as
+            // they are, where a jump from one to the next would show.
+            if constexpr (std::is_same_v<decltype(node), ZoneId>)
+                solution.direct.at(node, b) = direct_with_mean(node, b);
+            else
+                solution.direct.at(node, b) = direct_field(node, b);
             solution.indirect.at(node, b) = indirect.field(node, b);
         }
-        // Zones are seen as integrals along rays, where the mean counts; patches are seen as they
-        // are, where a jump from one to the next would show.
-        if constexpr (std::is_same_v<decltype(node), ZoneId>) keep_mean(node, solution.direct);
-        error = static_cast<float>(0.5 * (direct_.error(node) + indirect.error(node)));
+        error = static_cast<float>(direct_.error(node) + indirect.error(node));
     };
     for (const ZoneId z : mesh_.zones())
         if (forest.is_leaf(z)) fill(z, solution.zone_error[z.value]);
@@ -286,6 +286,11 @@ Report Loop::finish(const CoarseSolution& coarse) {
         report.reciprocity_error = std::max(report.reciprocity_error,
                                             reciprocity_error(coarse.areas(b), coarse.elements()));
     }
+    const Balance power =
+        balance(*enclosure_, coarse, incident_direct_, light_, 16384, options_.seed);
+    report.net_power = power.net_power;
+    report.energy_balance = power.energy_balance;
+    report.direct_power_check = power.direct_power_check;
     report.warnings = enclosure_->warnings;
     if (limited_)
         report.warnings.push_back(

@@ -16,7 +16,10 @@ bool same_extinction(const Enclosure& enclosure, std::size_t a, std::size_t b) {
 
 CoarseSolution::CoarseSolution(const Enclosure& enclosure, const Forest& forest,
                                const SolveOptions& options, const ProgressCallback& progress)
-    : enclosure_(enclosure), options_(options), elements_(elements_of_leaves(enclosure, forest)) {
+    : enclosure_(enclosure),
+      forest_(forest),
+      options_(options),
+      elements_(elements_of_leaves(enclosure, forest)) {
     for (std::size_t band = 0; band < enclosure.bands; ++band) {
         std::size_t same = 0;
         while (same < band && !same_extinction(enclosure, same, band)) ++same;

@@ -15,6 +15,7 @@ class CoarseSolution {
                    const ProgressCallback& progress);
 
     const Elements& elements() const { return elements_; }
+    const Forest& forest() const { return forest_; }
     const ExchangeAreas& areas(std::size_t band) const { return areas_[matrix_[band]]; }
     std::size_t rays() const { return rays_; }
     std::size_t memory() const;
@@ -38,6 +39,7 @@ class CoarseSolution {
 
   private:
     const Enclosure& enclosure_;
+    const Forest& forest_;
     SolveOptions options_;
     Elements elements_;
     std::vector<ExchangeAreas> areas_;

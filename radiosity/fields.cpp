@@ -30,6 +30,12 @@ Affine interpolate(const std::array<Point, 3>& p, const std::array<double, 3>& f
     return result;
 }
 
+Affine with_mean(const Affine& function, Point centroid, double mean) {
+    const double present = function.at(centroid);
+    if (!(present > 0.0)) return {Direction(0.0), mean};
+    return {function.gradient * (mean / present), function.constant * (mean / present)};
+}
+
 void extend(const Forest& forest, Fields& fields) {
     const std::size_t zones = fields.zone.size() / fields.bands;
     const std::size_t patches = fields.patch.size() / fields.bands;

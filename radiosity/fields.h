@@ -21,6 +21,10 @@ struct Affine {
 Affine interpolate(const std::array<Point, 4>& corners, const std::array<double, 4>& values);
 Affine interpolate(const std::array<Point, 3>& corners, const std::array<double, 3>& values);
 
+// The function scaled to a mean over the element whose centroid is given: a scaled one stays ≥ 0
+// where it was, a shifted one does not. Constant where there is nothing to scale.
+Affine with_mean(const Affine& function, Point centroid, double mean);
+
 // One linear function a node and band ([node * bands + band]), meaningful on leaves (and, after
 // `coarsen`, on inner nodes), linear and discontinuous from leaf to leaf.
 struct Fields {

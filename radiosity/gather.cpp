@@ -8,55 +8,135 @@
 namespace tyndall::radiosity {
 namespace {
 
-constexpr double opaque_enough = 1e-9;  // transmittance below which nothing more is gained
+constexpr float opaque_enough = 1e-7f;  // transmittance below which nothing more is gained
 
 }  // namespace
+
+GatherScene::GatherScene(const Enclosure& enclosure, const Forest& forest, const Fields& sources,
+                         double detail)
+    : enclosure_(enclosure),
+      forest_(forest),
+      nodes_(forest.zone_count()),
+      sources_(sources.zone.size()),
+      patches_(sources.patch),
+      detail_(static_cast<float>(detail)) {
+    for (std::size_t z = 0; z < nodes_.size(); ++z) {
+        const auto& node = forest[ZoneId(z)];
+        const auto& n = node.plane_normal;
+        nodes_[z] = {{float(n.x), float(n.y), float(n.z), float(node.plane_offset)},
+                     node.first_child.value,
+                     node.longest_edge};
+    }
+    for (std::size_t k = 0; k < sources_.size(); ++k) {
+        const Affine& f = sources.zone[k];
+        sources_[k] = {{float(f.gradient.x), float(f.gradient.y), float(f.gradient.z)},
+                       float(f.constant)};
+    }
+    for (std::size_t t = 0; t < enclosure.mesh.tets.size(); ++t)
+        for (std::size_t b = 0; b < enclosure.bands; ++b)
+            extinction_.push_back(
+                float(enclosure.solid(TetId(t)) ? 0.0 : enclosure.extinction(TetId(t), b)));
+}
+
+// One ray's way through the packed trees.
+class RadianceWalk {
+  public:
+    RadianceWalk(const GatherScene& scene, const mesh::Ray& ray, std::span<double> radiance,
+                 std::span<float> transmittance)
+        : s_(scene),
+          bands_(radiance.size()),
+          origin_{float(ray.origin.x), float(ray.origin.y), float(ray.origin.z)},
+          direction_{float(ray.direction.x), float(ray.direction.y), float(ray.direction.z)},
+          radiance_(radiance),
+          transmittance_(transmittance) {}
+
+    // Crosses a base tet; false when nothing more can be gained.
+    bool cross(TetId tet, float t_in, float t_out) {
+        const float* extinction = &s_.extinction_[tet.value * bands_];
+        if (!(*std::max_element(extinction, extinction + bands_) > 0.0f)) return true;
+        struct Pending {
+            std::uint32_t zone;
+            float t_out;
+        };
+        std::array<Pending, 128> stack;
+        int depth = 0;
+        std::uint32_t zone = tet.value;
+        for (;;) {
+            const GatherScene::Node& node = s_.nodes_[zone];
+            if (node.child == none || depth == 128 || node.longest_edge < s_.detail_ * t_in) {
+                if (t_out > t_in && !gain(zone, extinction, t_in, t_out)) return false;
+                if (depth == 0) return true;
+                t_in = std::max(t_in, t_out);
+                zone = stack[--depth].zone;
+                t_out = stack[depth].t_out;
+                continue;
+            }
+            const float slope = dot(node.plane, direction_);
+            const float start = dot(node.plane, origin_) + node.plane[3];
+            const float at_in = start + t_in * slope, at_out = start + t_out * slope;
+            if (at_in <= 0.0f && at_out <= 0.0f) {
+                zone = node.child;
+            } else if (at_in >= 0.0f && at_out >= 0.0f) {
+                zone = node.child + 1;
+            } else {
+                const float t = std::clamp(-start / slope, t_in, t_out);
+                stack[depth++] = {at_in < 0.0f ? node.child + 1 : node.child, t_out};
+                zone = at_in < 0.0f ? node.child : node.child + 1;
+                t_out = t;
+            }
+        }
+    }
+
+  private:
+    static float dot(const float* a, const float* b) {
+        return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    }
+
+    bool gain(std::uint32_t zone, const float* extinction, float t_in, float t_out) {
+        float most = 0.0f;
+        for (std::size_t b = 0; b < bands_; ++b) {
+            const GatherScene::Source& source = s_.sources_[zone * bands_ + b];
+            const float start = dot(source.gradient, origin_) + source.constant;
+            const float slope = dot(source.gradient, direction_);
+            const SegmentWeights w = segment_weights(extinction[b] * (t_out - t_in));
+            float& transmittance = transmittance_[b];
+            // A linear fit may dip below zero in a corner; radiance does not.
+            radiance_[b] += transmittance * (w.front * std::max(0.0f, start + t_in * slope) +
+                                             w.back * std::max(0.0f, start + t_out * slope));
+            transmittance *= static_cast<float>(w.transmittance);
+            most = std::max(most, transmittance);
+        }
+        return most > opaque_enough;
+    }
+
+    const GatherScene& s_;
+    std::size_t bands_;
+    float origin_[3], direction_[3];
+    std::span<double> radiance_;
+    std::span<float> transmittance_;
+};
 
 void radiance_along(const GatherScene& scene, const mesh::Ray& ray, mesh::WalkStart start,
                     std::span<double> radiance) {
     const std::size_t bands = radiance.size();
-    const Enclosure& enclosure = scene.enclosure;
+    const Enclosure& enclosure = scene.enclosure_;
     std::fill(radiance.begin(), radiance.end(), 0.0);
-    thread_local std::vector<double> transmittance;
-    transmittance.assign(bands, 1.0);
-
-    const auto on_zone = [&](const Spectrum& extinction, ZoneId zone, double t_in, double t_out) {
-        double most = 0.0;
-        for (std::size_t b = 0; b < bands; ++b) {
-            const Affine& source = scene.sources.at(zone, b);
-            const double at_origin = source.at(ray.origin);
-            const double slope = glm::dot(source.gradient, ray.direction);
-            const SegmentWeights w = segment_weights(extinction[b] * (t_out - t_in));
-            // A linear fit may dip below zero in a corner; radiance does not.
-            radiance[b] += transmittance[b] * (w.front * std::max(0.0, at_origin + t_in * slope) +
-                                               w.back * std::max(0.0, at_origin + t_out * slope));
-            transmittance[b] *= w.transmittance;
-            most = std::max(most, transmittance[b]);
-        }
-        return most > opaque_enough;
-    };
+    thread_local std::vector<float> transmittance;
+    transmittance.assign(bands, 1.0f);
+    RadianceWalk walk(scene, ray, radiance, transmittance);
     const auto end =
         mesh::walk(enclosure.mesh, ray, start, [&](TetId tet, double t_in, double t_out) {
-            const auto medium = enclosure.medium_of(tet);
-            if (medium == none) return true;
-            const Spectrum& extinction = enclosure.media[medium].extinction;
-            return mesh::descend(
-                scene.forest, mesh::root_zone(tet), ray, t_in, t_out,
-                [&](ZoneId zone, double t) {
-                    return scene.forest[zone].longest_edge < scene.detail * t;
-                },
-                [&](ZoneId zone, double s_in, double s_out) {
-                    return on_zone(extinction, zone, s_in, s_out);
-                });
+            return walk.cross(tet, float(t_in), float(t_out));
         });
     if (end.arrival == mesh::Arrival::left) {
         for (std::size_t b = 0; b < bands; ++b)
             radiance[b] += transmittance[b] * enclosure.environment[b];
     } else if (end.arrival == mesh::Arrival::struck) {
         const Point x = ray.origin + end.distance * ray.direction;
-        const PatchId leaf = scene.forest.leaf_at(mesh::root_patch(end.facet, end.side), x);
+        const PatchId leaf = scene.forest_.leaf_at(mesh::root_patch(end.facet, end.side), x);
         for (std::size_t b = 0; b < bands; ++b)
-            radiance[b] += transmittance[b] * std::max(0.0, scene.sources.at(leaf, b).at(x));
+            radiance[b] +=
+                transmittance[b] * std::max(0.0, scene.patches_[leaf.value * bands + b].at(x));
     }
 }
 

@@ -23,13 +23,36 @@ struct Gathered {
     double spread = 0.0;  // half the difference of the two halves of the rays: its noise [W/m^2/sr]
 };
 
-// The fields a gather reads, with the detail it needs: zones whose longest edge is below
-// `detail` × distance stand for their leaves (0: always the leaves).
-struct GatherScene {
-    const Enclosure& enclosure;
-    const Forest& forest;
-    const Fields& sources;  // r of every leaf, coarsened: what it sends out besides direct emission
-    double detail = 0.0;    // [-]
+// What gathers walk through: the trees and r of every leaf in single precision and packed, since a
+// gather is bound by memory (half the bytes of the forest's nodes, a third of the time).
+class GatherScene {
+  public:
+    // `sources`: r of every leaf, coarsened: what it sends out besides direct emission. Zones whose
+    // longest edge is below `detail` × distance stand for their leaves (0: always the leaves) [-].
+    // Later bisections of the forest are not seen. Cost: O(nodes).
+    GatherScene(const Enclosure& enclosure, const Forest& forest, const Fields& sources,
+                double detail = 0.0);
+
+  private:
+    friend class RadianceWalk;
+    struct Node {
+        float plane[4];       // normal and offset of an inner node's split
+        std::uint32_t child;  // first child; none: a leaf
+        float longest_edge;   // [m]
+    };
+    struct Source {
+        float gradient[3], constant;
+    };
+    const Enclosure& enclosure_;
+    const Forest& forest_;
+    std::vector<Node> nodes_;        // of zones
+    std::vector<Source> sources_;    // of zones, [node * bands + band]
+    std::vector<Affine> patches_;    // of patches, [node * bands + band]
+    std::vector<float> extinction_;  // of base tets, [tet * bands + band] [1/m]
+    float detail_;
+
+    friend void radiance_along(const GatherScene&, const mesh::Ray&, mesh::WalkStart,
+                               std::span<double>);
 };
 
 // Radiance that arrives at the ray's origin from its direction, one value a band:

@@ -31,12 +31,12 @@ struct SolveOptions {
     DirectLightMode direct_light = DirectLightMode::closed_form;
     double element_size =
         0.0;  // longest edge of the initial elements [m]; 0: chosen from the scene
-    std::size_t max_elements = 300000;    // leaves, patches and zones together
+    std::size_t max_elements = 150000;    // leaves, patches and zones together
     std::size_t max_memory = 2ull << 30;  // [byte]
     double max_time = 0.0;                // wall time; 0: no limit [s]
     std::size_t max_passes = 12;          // of refinement
     std::size_t rays = 256;               // walked from each element for its row
-    std::size_t gather_rays = 512;        // walked from each point of the last, fine gather
+    std::size_t gather_rays = 256;        // walked from each point of the last, fine gather
     double solver_tolerance = 1e-6;       // relative residual [-]
     std::size_t solver_iterations = 200;
     std::uint64_t seed = 1;

@@ -39,7 +39,8 @@ class DirectRefiner {
     // Mean of H^A over a leaf by the degree-2 rule of corners and centroid.
     double mean(ZoneId zone, std::size_t band);
     double mean(PatchId patch, std::size_t band);
-    // Largest interpolation error of a leaf, mean over bands [W/m^2/sr].
+    // Error of what a leaf holds, from the departures at its edges' middles and centroid: as chords
+    // of a zone see it, as it stands on a patch [W/m^2/sr].
     double error(ZoneId zone) const { return zone_error_[zone.value]; }
     double error(PatchId patch) const { return patch_error_[patch.value]; }
 

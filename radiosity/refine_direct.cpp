@@ -8,9 +8,32 @@
 namespace tyndall::radiosity {
 namespace {
 
-// The mean square of an interpolation error over an element against the square of its largest value
-// at the edges' middles: a quarter holds for a kink across the element.
-constexpr double mean_square_share = 0.25;
+// A zone is seen as an integral along chords. Its function keeps the mean, so that along a chord
+// what is left has either sign: about half of its deviation remains.
+constexpr double chord_share = 0.5;
+
+// Pictures compute direct light on surfaces anew where it matters (render/line_of_sight.h), so that
+// what patches hold counts for less than what zones hold: for what they reflect.
+constexpr double seen_patch_share = 0.1;
+
+// Departures from linear, and their statistics.
+class Departures {
+  public:
+    double add(double departure) {
+        sum_ += departure;
+        square_ += departure * departure;
+        ++count_;
+        return departure;
+    }
+    double root_mean_square() const { return std::sqrt(square_ / count_); }
+    double deviation() const {
+        const double mean = sum_ / count_;
+        return std::sqrt(std::max(0.0, square_ / count_ - mean * mean));
+    }
+
+  private:
+    double sum_ = 0.0, square_ = 0.0, count_ = 0.0;
+};
 
 // A tet's edge is bisected where the error is largest, so that meshes stretch along shafts, but
 // never one much shorter than the longest, so that slivers do not run away.
@@ -30,17 +53,23 @@ void DirectRefiner::measure(Node node, std::vector<float>& errors, std::vector<s
     const auto corner = mesh_.corners(node);
     const int count = static_cast<int>(corner.size());
     const auto& vertices = forest[node].corners;
-    double worst = 0.0, worst_edge = 0.0;
     const auto longest = forest.longest_edge(node);
     std::array<int, 2> split = longest;
+    double worst_edge = 0.0, at_centroid = 0.0;
+    Departures departures;
+    for (std::size_t b = 0; b < bands_; ++b) {
+        double mean = 0.0;
+        for (const SampleId id : corner) mean += samples.direct(id, b) / count;
+        at_centroid += std::abs(departures.add(centroid[node.value * bands_ + b] - mean));
+    }
     for (int i = 0; i < count; ++i)
         for (int j = i + 1; j < count; ++j) {
             const SampleId middle = mesh_.middle(node, i, j);
             double error = 0.0;
             for (std::size_t b = 0; b < bands_; ++b)
-                error += std::abs(samples.direct(middle, b) - 0.5 * (samples.direct(corner[i], b) +
-                                                                     samples.direct(corner[j], b)));
-            worst = std::max(worst, error);
+                error += std::abs(departures.add(
+                    samples.direct(middle, b) -
+                    0.5 * (samples.direct(corner[i], b) + samples.direct(corner[j], b))));
             const double length =
                 glm::distance(forest.point(vertices[i]), forest.point(vertices[j]));
             if (error > worst_edge && length > shortest_bisected * forest[node].longest_edge) {
@@ -48,15 +77,10 @@ void DirectRefiner::measure(Node node, std::vector<float>& errors, std::vector<s
                 split = {i, j};
             }
         }
-    double at_centroid = 0.0;
-    for (std::size_t b = 0; b < bands_; ++b) {
-        double mean = 0.0;
-        for (const SampleId id : corner) mean += samples.direct(id, b) / count;
-        at_centroid += std::abs(centroid[node.value * bands_ + b] - mean);
-    }
     if (at_centroid > 2.0 * worst_edge) split = longest;
-    errors[node.value] =
-        static_cast<float>(std::max(worst, at_centroid) / static_cast<double>(bands_));
+    constexpr bool is_zone = std::is_same_v<Node, ZoneId>;
+    errors[node.value] = static_cast<float>(is_zone ? chord_share * departures.deviation()
+                                                    : departures.root_mean_square());
     edges[node.value] = static_cast<std::uint8_t>(4 * split[0] + split[1]);
 }
 
@@ -122,7 +146,7 @@ RefineResult DirectRefiner::refine(const Importance& importance, double goal,
             if (!forest.is_leaf(z) || zone_error_[z.value] == 0.0f) continue;
             const auto& optics = enclosure_.media[medium_of(enclosure_, forest, z)];
             const double error = mean_over_bands(optics.albedo) * zone_error_[z.value];
-            const double share = mean_square_share * importance.of(z) * error * error;
+            const double share = importance.of(z) * error * error;
             result.squared_error += share;
             if (forest[z].longest_edge > limits.smallest_edge)
                 candidates.push_back({share, z.value, true});
@@ -131,14 +155,11 @@ RefineResult DirectRefiner::refine(const Importance& importance, double goal,
             if (!forest.is_leaf(p) || patch_error_[p.value] == 0.0f) continue;
             const auto& side = enclosure_.sides[side_of(enclosure_, forest, p)];
             const double error = mean_over_bands(side.reflectance) * patch_error_[p.value];
-            const double share = mean_square_share * importance.of(p) * error * error;
+            const double share = seen_patch_share * importance.of(p) * error * error;
             result.squared_error += share;
             if (forest[p].longest_edge > limits.smallest_edge)
                 candidates.push_back({share, p.value, false});
         }
-        if (getenv("TYD"))
-            fprintf(stderr, "direct: leaves %zu err %.5f goal %.5f\n", mesh_.leaf_count(),
-                    std::sqrt(result.squared_error), std::sqrt(goal));
         if (first == 0.0) first = result.squared_error;
         const double gone = first > goal && result.squared_error > 0.0
                                 ? std::log(first / result.squared_error) / std::log(first / goal)

@@ -6,10 +6,9 @@
 namespace tyndall::radiosity {
 namespace {
 
-constexpr double mean_square_share = 0.25;  // as for direct light
-
-// A departure within this many times the gather's own spread is taken for noise.
-constexpr double noise_factor = 1.5;
+// A departure within this many times the gather's noise is taken for noise: it joins three samples
+// of equal variance with weights 1, −1/2, −1/2, hence √1.5 for one standard deviation.
+constexpr double noise_factor = 2.0 * 1.2247;
 
 }  // namespace
 
@@ -34,21 +33,30 @@ std::pair<double, std::array<int, 2>> IndirectRefiner::measure(Node node) {
     const auto corners = mesh_.corners(node);
     const int count = static_cast<int>(corners.size());
     const auto& vertices = mesh_.forest()[node].corners;
-    double worst = 0.0;
+    std::vector<SampleId> all(corners.begin(), corners.end());
+    for (int i = 0; i < count; ++i)
+        for (int j = i + 1; j < count; ++j) all.push_back(mesh_.middle(node, i, j));
+    // One sample's spread may be small by chance; that of all the element's samples is not.
+    std::vector<double> noise(enclosure_.bands, 0.0);
+    for (std::size_t b = 0; b < noise.size(); ++b) {
+        for (const SampleId id : all) noise[b] += samples.spread(id, b) * samples.spread(id, b);
+        noise[b] = noise_factor * std::sqrt(noise[b] / static_cast<double>(all.size()));
+    }
+
+    double worst = 0.0, square = 0.0;
     std::array<int, 2> edge = mesh_.forest().longest_edge(node);
+    std::size_t next = corners.size();
     for (int i = 0; i < count; ++i)
         for (int j = i + 1; j < count; ++j) {
-            const SampleId middle = mesh_.middle(node, i, j);
+            const SampleId middle = all[next++];
             double error = 0.0;
             for (std::size_t b = 0; b < enclosure_.bands; ++b) {
                 const double departure =
                     samples.indirect(middle, b) -
                     0.5 * (samples.indirect(corners[i], b) + samples.indirect(corners[j], b));
-                const double noise =
-                    samples.spread(middle, b) +
-                    0.5 * (samples.spread(corners[i], b) + samples.spread(corners[j], b));
-                error += std::max(0.0, std::abs(departure) - noise_factor * 0.5 * noise);
+                error += std::max(0.0, std::abs(departure) - noise[b]);
             }
+            square += error * error;
             const double length =
                 glm::distance(mesh_.forest().point(vertices[i]), mesh_.forest().point(vertices[j]));
             if (error > worst && length > 0.35 * mesh_.forest()[node].longest_edge) {
@@ -56,7 +64,8 @@ std::pair<double, std::array<int, 2>> IndirectRefiner::measure(Node node) {
                 edge = {i, j};
             }
         }
-    return {worst / static_cast<double>(enclosure_.bands), edge};
+    const double points = 0.5 * count * (count - 1);
+    return {std::sqrt(square / points) / static_cast<double>(enclosure_.bands), edge};
 }
 
 RefineResult IndirectRefiner::refine(Fields sources, double detail, const Importance& importance,
@@ -71,11 +80,8 @@ RefineResult IndirectRefiner::refine(Fields sources, double detail, const Import
         std::vector<SampleId> ids;
         collect(zones, ids);
         collect(patches, ids);
-        result.rays +=
-            mesh_.samples().gather_at(ids, {enclosure_, forest, sources, detail}, points_, seed_);
-        if (getenv("TYD"))
-            fprintf(stderr, "indirect: frontier %zu zones %zu patches, rays %zu leaves %zu\n",
-                    zones.size(), patches.size(), result.rays, mesh_.leaf_count());
+        result.rays += mesh_.samples().gather_at(
+            ids, GatherScene(enclosure_, forest, sources, detail), points_, seed_);
         for (auto* flags : {&zone_settled_, &patch_settled_})
             flags->resize(std::max(forest.zone_count(), forest.patch_count()));
         for (auto* errors : {&zone_error_, &patch_error_})
@@ -94,7 +100,7 @@ RefineResult IndirectRefiner::refine(Fields sources, double detail, const Import
             const auto [error, edge] = measure(z);
             const double a =
                 mean_over_bands(enclosure_.media[medium_of(enclosure_, forest, z)].albedo);
-            const double share = mean_square_share * importance.of(z) * a * a * error * error;
+            const double share = importance.of(z) * a * a * error * error;
             if (!descend || share <= threshold || forest[z].longest_edge <= limits.smallest_edge) {
                 zone_settled_[z.value] = true;
                 zone_error_[z.value] = static_cast<float>(error);
@@ -110,7 +116,7 @@ RefineResult IndirectRefiner::refine(Fields sources, double detail, const Import
             const double error = measure(p).first;
             const double a =
                 mean_over_bands(enclosure_.sides[side_of(enclosure_, forest, p)].reflectance);
-            const double share = mean_square_share * importance.of(p) * a * a * error * error;
+            const double share = importance.of(p) * a * a * error * error;
             if (!descend || share <= threshold || forest[p].longest_edge <= limits.smallest_edge) {
                 patch_settled_[p.value] = true;
                 patch_error_[p.value] = static_cast<float>(error);

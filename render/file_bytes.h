@@ -1,20 +1,11 @@
-// Whole files, read and written at once.
+// Whole files, as mesh/file_bytes.h reads and writes them.
 #pragma once
 
-#include <filesystem>
-#include <string>
-#include <string_view>
+#include "mesh/file_bytes.h"
 
 namespace tyndall::render {
 
-// Purpose: all bytes of a file.
-// Errors: mesh::InputError: no such file, a folder, no permission, a read that fails.
-std::string read_file(const std::filesystem::path& path);
-
-// Purpose: a file with these bytes. They are written beside it under another name which then takes
-//   its place, so that no reader ever sees half a file, and a failure leaves an old file as it was.
-//   What is not a regular file (a pipe, /dev/stdout) is written straight.
-// Errors: mesh::InputError: no such folder, no permission, a full disk.
-void write_file(const std::filesystem::path& path, std::string_view bytes);
+using mesh::read_file;
+using mesh::write_file;
 
 }  // namespace tyndall::render

@@ -266,5 +266,5 @@ TEST_CASE("layers are found by name, and direct_single is a sum") {
 TEST_CASE("a picture whose sizes do not agree is not written") {
     auto image = picture(1);
     image.layers[1].values.pop_back();
-    CHECK_THROWS_AS(write_image("/tmp/never.exr", image), std::logic_error);
+    CHECK_THROWS_AS(write_image("never.exr", image), std::logic_error);
 }

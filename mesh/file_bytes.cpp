@@ -1,4 +1,4 @@
-#include "render/file_bytes.h"
+#include "mesh/file_bytes.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -11,10 +11,9 @@
 
 #include "mesh/input_error.h"
 
-namespace tyndall::render {
+namespace tyndall::mesh {
 
 namespace fs = std::filesystem;
-using mesh::InputError;
 
 namespace {
 
@@ -119,4 +118,4 @@ void write_file(const fs::path& path, std::string_view bytes) {
     write_and_replace(error ? path : real, bytes);
 }
 
-}  // namespace tyndall::render
+}  // namespace tyndall::mesh

@@ -1,0 +1,104 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "cli/commands.h"
+#include "cli/job.h"
+#include "mesh/input_error.h"
+#include "radiosity/solution_file.h"
+#include "render/image_files.h"
+
+namespace tyndall::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct PictureOptions {
+    std::string solution, out, camera, method, layer;
+    std::optional<std::size_t> samples;
+    std::optional<double> exposure, white;
+};
+
+constexpr const char* examples =
+    R"(  tyndall render out/ -o picture.png --exposure 1
+  tyndall render out/ --camera side --layer direct_single -o direct.pfm
+  tyndall render out/ -o large.exr --samples 64 --set camera.main.width=1920)";
+
+// What the solution's scene says, then --set, then the flags.
+ViewSettings settings_of(const PictureOptions& options, const CommonFlags& flags,
+                         const std::string& scene) {
+    if (scene.empty())
+        throw mesh::InputError(
+            fmt::format("'{}' carries no scene, so there is no camera to render with. Make the "
+                        "solution by tyndall solve.",
+                        options.solution));
+    auto settings = read_view_settings(scene, override_texts(flags));
+    if (flags.seed) settings.render.seed = *flags.seed;
+    if (options.samples) settings.render.samples = *options.samples;
+    if (!options.method.empty()) settings.render.method = options.method;
+    if (options.exposure) settings.tone_map.exposure = *options.exposure;
+    if (options.white) settings.tone_map.white = *options.white;
+    return settings;
+}
+
+void write(const fs::path& path, const render::Image& image, const ViewSettings& settings) {
+    if (path.extension() == ".png" || path.extension() == ".PNG")
+        render::write_image(path, render::tone_map(image, settings.tone_map));
+    else
+        render::write_image(path, image);
+}
+
+int make_and_write(const PictureOptions& options, const CommonFlags& flags) {
+    render::check_writable_image(options.out);
+    const auto file = radiosity::read_solution(solution_path(options.solution));
+    const auto settings = settings_of(options, flags, attached_scene(file.attachments));
+    const auto& camera = find_camera(
+        settings.cameras, options.camera.empty() ? settings.view_camera : options.camera);
+    ProgressLine progress(flags);
+    auto image = make_picture(file.solution, camera, settings.render, progress);
+    progress.clear();
+    if (progress.stopped()) throw mesh::InputError("stopped on request: no picture was written.");
+    if (!options.layer.empty()) image.layers = {render::select_layer(image, options.layer)};
+    write(options.out, image, settings);
+    if (flags.json)
+        write_output(nlohmann::ordered_json{{"file", options.out},
+                                            {"camera", camera.name},
+                                            {"method", settings.render.method},
+                                            {"samples", settings.render.samples},
+                                            {"layer", image.layers[0].name},
+                                            {"width", image.width},
+                                            {"height", image.height}}
+                         .dump(2) +
+                     "\n");
+    else if (!flags.quiet)
+        write_output(fmt::format("wrote    {} ({} x {}, camera \"{}\", {})\n", options.out,
+                                 image.width, image.height, camera.name, image.layers[0].name));
+    return 0;
+}
+
+}  // namespace
+
+void add_render_command(Shell& shell) {
+    const auto options = std::make_shared<PictureOptions>();
+    auto& command = shell.add_command(
+        "render", "A picture again, from the solution file alone", examples,
+        [options](const CommonFlags& flags) { return make_and_write(*options, flags); });
+    add_seed_flag(command, shell.flags());
+    add_set_flag(command, shell.flags());
+    command.add_option("OUT", options->solution, "Folder of a run, or a solution file")->required();
+    command.add_option("-o,--output", options->out, "Picture: .exr, .pfm or .png")->required();
+    command.add_option("--camera", options->camera, "Camera of the scene; else the one solved for");
+    command.add_option("--method", options->method, "Render method; else the scene's");
+    command.add_option("--layer", options->layer,
+                       "Write this layer alone; direct_single: emission + surfaces_direct + "
+                       "single_scattering");
+    command.add_option("--samples", options->samples, "Rays a pixel")
+        ->check(CLI::Range(std::size_t(1), std::size_t(65536)));
+    command.add_option("--exposure", options->exposure, "Stops added to a PNG's exposure");
+    command.add_option("--white", options->white, "Radiance shown as white in a PNG [W/m2/sr]")
+        ->check(CLI::PositiveNumber);
+}
+
+}  // namespace tyndall::cli

@@ -1,0 +1,211 @@
+#include "radiosity/balance.h"
+
+#include <glm/geometric.hpp>
+
+#include <cmath>
+#include <numbers>
+
+#include "radiosity/light_sources.h"
+#include "radiosity/point_set.h"
+
+namespace tyndall::radiosity {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+// Follows direct light from its sources to what leaves the hull.
+class Escape {
+  public:
+    Escape(const Enclosure& enclosure, const CoarseSolution& coarse, std::size_t rays,
+           std::uint64_t seed)
+        : enclosure_(enclosure),
+          coarse_(coarse),
+          points_(rays),
+          seed_(seed),
+          power_(enclosure.bands, 0.0) {}
+
+    // Power that leaves, of emitting surfaces and of lights [W].
+    Spectrum follow() {
+        const Elements& e = coarse_.elements();
+        if (!enclosure_.open) return power_;
+        double emitting = 0.0;
+        for (std::size_t i = 0; i < e.patches.size(); ++i)
+            emitting += emits(i) ? e.capacity[i * e.bands] : 0.0;
+        for (std::size_t i = 0; i < e.patches.size(); ++i)
+            if (emits(i)) from_patch(i, emitting);
+        for (const Light& light : enclosure_.lights)
+            std::visit([this](const auto& source) { from(source); }, light.source);
+        return power_;
+    }
+
+  private:
+    using Numbers = std::array<double, point_set_dimensions>;
+
+    bool emits(std::size_t i) const {
+        for (std::size_t b = 0; b < enclosure_.bands; ++b)
+            if (coarse_.split_emission(i, b) > 0.0) return true;
+        return false;
+    }
+
+    // Adds `power` × transmittance if the ray leaves; one value a band.
+    template <class Power>
+    void add(const mesh::Ray& ray, mesh::WalkStart start, const Power& power) {
+        std::vector<double> depth(enclosure_.bands, 0.0);
+        const auto end =
+            mesh::walk(enclosure_.mesh, ray, start, [&](TetId tet, double t_in, double t_out) {
+                for (std::size_t b = 0; b < depth.size(); ++b)
+                    depth[b] += enclosure_.extinction(tet, b) * (t_out - t_in);
+                return true;
+            });
+        if (end.arrival != mesh::Arrival::left) return;
+        for (std::size_t b = 0; b < depth.size(); ++b) power_[b] += power(b) * std::exp(-depth[b]);
+    }
+
+    void from_patch(std::size_t i, double emitting) {
+        const Elements& e = coarse_.elements();
+        const auto& forest = coarse_.forest();
+        const double area = e.capacity[i * e.bands];
+        const auto count = std::max<std::size_t>(
+            16, static_cast<std::size_t>(
+                    std::ceil(static_cast<double>(points_.size()) * area / emitting)));
+        const auto& c = forest[e.patches[i]].corners;
+        const auto n = normal_of(forest, e.patches[i]);
+        const auto side = forest.base_facet_side(e.patches[i]);
+        for (std::size_t k = 0; k < std::min(count, points_.size()); ++k) {
+            const auto u = points_(k, hash_seed(seed_, i));
+            const auto w = uniform_in_triangle(u[0], u[1]);
+            const Point x =
+                w[0] * forest.point(c[0]) + w[1] * forest.point(c[1]) + w[2] * forest.point(c[2]);
+            add({x, cosine_direction(n, u[3], u[4])},
+                mesh::start_on(enclosure_.mesh, FacetId(side / 2),
+                               side % 2 ? Side::back : Side::front),
+                [&](std::size_t b) {
+                    return pi * area * coarse_.split_emission(i, b) /
+                           static_cast<double>(std::min(count, points_.size()));
+                });
+        }
+    }
+
+    // From a point inside the mesh, if light can be there.
+    template <class Power>
+    void from_point(Point x, Direction direction, const Power& power) {
+        const TetId tet = mesh::locate(enclosure_.mesh, x);
+        if (tet.valid() && !enclosure_.solid(tet)) add({x, direction}, {tet}, power);
+    }
+
+    double share() const { return 1.0 / static_cast<double>(points_.size()); }
+
+    void from(const PointLight& light) {
+        for (std::size_t k = 0; k < points_.size(); ++k) {
+            const auto u = points_(k, seed_);
+            from_point(light.position, uniform_direction(u[0], u[1]),
+                       [&](std::size_t b) { return 4.0 * pi * share() * light.intensity[b]; });
+        }
+    }
+
+    void from(const SpotLight& light) {
+        const double half = std::min(pi, 0.5 * light.angle + light.soft_edge);
+        const double cap = 1.0 - std::cos(half);
+        for (std::size_t k = 0; k < points_.size(); ++k) {
+            const auto u = points_(k, seed_);
+            const Direction omega = about(light.direction, 1.0 - cap * u[0], u[1]);
+            const double weight = 2.0 * pi * cap * share() * spot_share(light, omega);
+            from_point(light.position, omega,
+                       [&](std::size_t b) { return weight * light.intensity[b]; });
+        }
+    }
+
+    // What enters through the faces of the hull that look towards the sun.
+    void from(const Sun& sun) {
+        const auto& mesh = enclosure_.mesh;
+        const Direction d = glm::normalize(sun.direction);
+        const auto size = mesh.hull_max - mesh.hull_min;
+        for (int axis = 0; axis < 3; ++axis) {
+            if (d[axis] == 0.0) continue;
+            const int s = (axis + 1) % 3, t = (axis + 2) % 3;
+            for (std::size_t k = 0; k < points_.size(); ++k) {
+                const auto u = points_(k, hash_seed(seed_, std::size_t(axis)));
+                Point x;
+                x[axis] = d[axis] > 0.0 ? mesh.hull_min[axis] + 1e-9 * size[axis]
+                                        : mesh.hull_max[axis] - 1e-9 * size[axis];
+                x[s] = mesh.hull_min[s] + u[0] * size[s];
+                x[t] = mesh.hull_min[t] + u[1] * size[t];
+                const Direction ray = about(d, std::cos(0.5 * sun.angle * std::sqrt(u[3])), u[4]);
+                const double weight = size[s] * size[t] * std::abs(d[axis]) * share();
+                from_point(x, ray, [&](std::size_t b) { return weight * sun.irradiance[b]; });
+            }
+        }
+    }
+
+    // The direction at an angle of the given cosine about an axis, turned by v of a full turn.
+    static Direction about(Direction axis, double cosine, double v) {
+        axis = glm::normalize(axis);
+        const Direction other = std::abs(axis.x) < 0.6 ? Direction(1, 0, 0) : Direction(0, 1, 0);
+        const auto a = glm::normalize(glm::cross(other, axis)), b = glm::cross(axis, a);
+        const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine)), phi = 2.0 * pi * v;
+        return cosine * axis + sine * (std::cos(phi) * a + std::sin(phi) * b);
+    }
+
+    const Enclosure& enclosure_;
+    const CoarseSolution& coarse_;
+    PointSet points_;
+    std::uint64_t seed_;
+    Spectrum power_;
+};
+
+}  // namespace
+
+Balance balance(const Enclosure& enclosure, const CoarseSolution& coarse,
+                const std::vector<double>& incident_direct, const DirectLight& light,
+                std::size_t rays, std::uint64_t seed) {
+    const Elements& e = coarse.elements();
+    const std::size_t bands = e.bands;
+    Balance result;
+    const Spectrum escaped_direct = Escape(enclosure, coarse, rays, seed).follow();
+    Spectrum received_direct(bands, 0.0), emitted_direct(bands, 0.0), lights(bands, 0.0),
+        brought(bands, 0.0), net(bands, 0.0), outside = escaped_direct;
+    for (const LightPower& p : light.powers())
+        for (std::size_t b = 0; b < bands; ++b) emitted_direct[b] += p.power[b];
+    for (std::size_t k = light.powers().size() - enclosure.lights.size(); k < light.powers().size();
+         ++k)
+        for (std::size_t b = 0; b < bands; ++b) lights[b] += light.powers()[k].power[b];
+
+    const auto named = [&](const std::string& name) -> Spectrum& {
+        return result.net_power.try_emplace(name, Spectrum(bands, 0.0)).first->second;
+    };
+    for (std::size_t i = 0; i < e.size(); ++i) {
+        const std::string& name =
+            e.is_patch(i) ? enclosure.sides[side_of(enclosure, coarse.forest(), e.patches[i])].name
+                          : enclosure.media[medium_of(enclosure, coarse.forest(), e.zone(i))].name;
+        for (std::size_t b = 0; b < bands; ++b) {
+            const std::size_t k = i * bands + b;
+            const double c = e.capacity[k], r = coarse.reflected(i, b);
+            const double incident = incident_direct[k] + coarse.indirect(i, b);
+            const double power = pi * c * (r + coarse.split_emission(i, b) - incident);
+            named(name)[b] += power;
+            net[b] += power;
+            brought[b] += pi * c * e.emission[k];
+            received_direct[b] += pi * c * incident_direct[k];
+            const ExchangeAreas& rows = coarse.areas(b);
+            const std::size_t last = rows.starts[i + 1];
+            if (last > rows.starts[i] && rows.columns[last - 1] == e.outside()) {
+                const double to_outside = pi * rows.values[last - 1];
+                outside[b] += to_outside * (r - enclosure.environment[b]);
+                brought[b] += to_outside * enclosure.environment[b];
+            }
+        }
+    }
+    double imbalance = 0.0, total = 0.0, direct = 0.0, direct_total = 0.0;
+    for (std::size_t b = 0; b < bands; ++b) {
+        imbalance += net[b] + lights[b] - outside[b];
+        total += brought[b] + lights[b];
+        direct += received_direct[b] + escaped_direct[b] - emitted_direct[b];
+        direct_total += emitted_direct[b];
+    }
+    named("outside") = outside;
+    result.energy_balance = total > 0.0 ? imbalance / total : 0.0;
+    result.direct_power_check = direct_total > 0.0 ? direct / direct_total : 0.0;
+    return result;
+}
+
+}  // namespace tyndall::radiosity

@@ -1,0 +1,116 @@
+#include "radiosity/report_json.h"
+
+#include <fmt/format.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "mesh/input_error.h"
+
+namespace tyndall::radiosity {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// JSON knows no NaN and no infinity: they are written as null.
+double number(const Json& json) {
+    return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
+}
+
+Json pass_json(const PassReport& pass, Costs costs) {
+    Json json{{"stage", pass.stage},
+              {"patches", pass.patches},
+              {"zones", pass.zones},
+              {"rays", pass.rays},
+              {"estimated_error", pass.estimated_error}};
+    if (costs == Costs::kept) {
+        json["cpu_seconds"] = pass.cpu_seconds;
+        json["wall_seconds"] = pass.wall_seconds;
+        json["memory_bytes"] = pass.memory_bytes;
+    }
+    return json;
+}
+
+PassReport pass_of(const Json& json) {
+    PassReport pass;
+    pass.stage = json.at("stage").get<std::string>();
+    pass.patches = json.at("patches").get<std::size_t>();
+    pass.zones = json.at("zones").get<std::size_t>();
+    pass.rays = json.at("rays").get<std::size_t>();
+    pass.estimated_error = number(json.at("estimated_error"));
+    pass.cpu_seconds = json.value("cpu_seconds", 0.0);
+    pass.wall_seconds = json.value("wall_seconds", 0.0);
+    pass.memory_bytes = json.value("memory_bytes", std::size_t(0));
+    return pass;
+}
+
+Json spectrum_json(const Spectrum& spectrum) {
+    return spectrum.size() == 1 ? Json(spectrum[0]) : Json(spectrum);
+}
+
+Spectrum spectrum_of(const Json& json) {
+    if (!json.is_array()) return {number(json)};
+    Spectrum spectrum;
+    for (const Json& value : json) spectrum.push_back(number(value));
+    return spectrum;
+}
+
+Report report_of(const Json& json) {
+    Report report;
+    report.patches = json.at("patches").get<std::size_t>();
+    report.zones = json.at("zones").get<std::size_t>();
+    report.solved_elements = json.at("solved_elements").get<std::size_t>();
+    for (const auto& pass : json.at("passes")) report.passes.push_back(pass_of(pass));
+    const Json& solver = json.at("solver");
+    report.solver = {solver.at("method").get<std::string>(),
+                     solver.at("iterations").get<std::size_t>(), number(solver.at("residual")),
+                     solver.at("converged").get<bool>()};
+    report.closure_error = number(json.at("closure_error"));
+    report.reciprocity_error = number(json.at("reciprocity_error"));
+    report.energy_balance = number(json.at("energy_balance"));
+    report.direct_power_check = number(json.at("direct_power_check"));
+    for (const auto& [name, power] : json.at("net_power").items())
+        report.net_power[name] = spectrum_of(power);
+    report.estimated_error = number(json.at("estimated_error"));
+    report.lost_rays = json.at("lost_rays").get<std::size_t>();
+    report.stopped = json.at("stopped").get<bool>();
+    report.warnings = json.at("warnings").get<std::vector<std::string>>();
+    return report;
+}
+
+}  // namespace
+
+std::string report_to_json(const Report& report, Costs costs) {
+    Json json;
+    json["patches"] = report.patches;
+    json["zones"] = report.zones;
+    json["solved_elements"] = report.solved_elements;
+    json["passes"] = Json::array();
+    for (const auto& pass : report.passes) json["passes"].push_back(pass_json(pass, costs));
+    json["solver"] = {{"method", report.solver.method},
+                      {"iterations", report.solver.iterations},
+                      {"residual", report.solver.residual},
+                      {"converged", report.solver.converged}};
+    json["closure_error"] = report.closure_error;
+    json["reciprocity_error"] = report.reciprocity_error;
+    json["energy_balance"] = report.energy_balance;
+    json["direct_power_check"] = report.direct_power_check;
+    json["net_power"] = Json::object();
+    for (const auto& [name, power] : report.net_power)
+        json["net_power"][name] = spectrum_json(power);
+    json["estimated_error"] = report.estimated_error;
+    json["lost_rays"] = report.lost_rays;
+    json["stopped"] = report.stopped;
+    json["warnings"] = report.warnings;
+    return json.dump(1, ' ', false, Json::error_handler_t::replace);
+}
+
+Report report_from_json(const std::string& text) {
+    try {
+        return report_of(Json::parse(text));
+    } catch (const Json::exception& error) {
+        throw mesh::InputError(fmt::format("this is no report: {}.", error.what()));
+    }
+}
+
+}  // namespace tyndall::radiosity

@@ -1,0 +1,274 @@
+// /tyndall/enclosure: the mesh as arrays, optics and lights as JSON.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "radiosity/solution_parts.h"
+
+namespace tyndall::radiosity {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const std::string folder = "/tyndall/enclosure";
+
+template <class Tag, std::size_t N>
+std::vector<std::uint32_t> flat(const std::vector<std::array<mesh::Id<Tag>, N>>& rows) {
+    std::vector<std::uint32_t> values;
+    values.reserve(N * rows.size());
+    for (const auto& row : rows)
+        for (const auto id : row) values.push_back(id.value);
+    return values;
+}
+
+template <class Tag, std::size_t N>
+std::vector<std::array<mesh::Id<Tag>, N>> rows_of(const std::vector<std::uint32_t>& values) {
+    std::vector<std::array<mesh::Id<Tag>, N>> rows(values.size() / N);
+    for (std::size_t k = 0; k < N * rows.size(); ++k) rows[k / N][k % N] = mesh::Id<Tag>(values[k]);
+    return rows;
+}
+
+Json vector_json(const glm::dvec3& v) {
+    return Json::array({v.x, v.y, v.z});
+}
+
+glm::dvec3 vector_of(const Json& json) {
+    return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
+}
+
+Json light_json(const Light& light) {
+    Json json{{"name", light.name}, {"where", light.where}};
+    if (const auto* sun = std::get_if<Sun>(&light.source))
+        json["sun"] = {{"direction", vector_json(sun->direction)},
+                       {"irradiance", sun->irradiance},
+                       {"angle", sun->angle}};
+    else if (const auto* point = std::get_if<PointLight>(&light.source))
+        json["point"] = {{"position", vector_json(point->position)},
+                         {"intensity", point->intensity}};
+    else if (const auto* spot = std::get_if<SpotLight>(&light.source))
+        json["spot"] = {{"position", vector_json(spot->position)},
+                        {"direction", vector_json(spot->direction)},
+                        {"intensity", spot->intensity},
+                        {"angle", spot->angle},
+                        {"soft_edge", spot->soft_edge}};
+    return json;
+}
+
+Light light_of(const Json& json) {
+    Light light{json.at("name").get<std::string>(), Sun{}, json.at("where").get<std::string>()};
+    if (json.contains("sun")) {
+        const Json& sun = json["sun"];
+        light.source = Sun{vector_of(sun.at("direction")), sun.at("irradiance").get<Spectrum>(),
+                           sun.at("angle").get<double>()};
+    } else if (json.contains("point")) {
+        const Json& point = json["point"];
+        light.source =
+            PointLight{vector_of(point.at("position")), point.at("intensity").get<Spectrum>()};
+    } else {
+        const Json& spot = json.at("spot");
+        light.source =
+            SpotLight{vector_of(spot.at("position")), vector_of(spot.at("direction")),
+                      spot.at("intensity").get<Spectrum>(), spot.at("angle").get<double>(),
+                      spot.at("soft_edge").get<double>()};
+    }
+    return light;
+}
+
+Json optics_json(const Enclosure& e) {
+    Json json;
+    json["bands"] = e.bands;
+    json["open"] = e.open;
+    json["region_count"] = e.mesh.region_count;
+    json["hull_min"] = vector_json(e.mesh.hull_min);
+    json["hull_max"] = vector_json(e.mesh.hull_max);
+    json["environment"] = e.environment;
+    json["sides"] = Json::array();
+    for (const auto& side : e.sides)
+        json["sides"].push_back({{"name", side.name},
+                                 {"surface", side.surface},
+                                 {"back", side.side == Side::back},
+                                 {"reflectance", side.reflectance},
+                                 {"emission", side.emission},
+                                 {"area", side.area}});
+    json["media"] = Json::array();
+    for (const auto& medium : e.media)
+        json["media"].push_back({{"name", medium.name},
+                                 {"extinction", medium.extinction},
+                                 {"albedo", medium.albedo},
+                                 {"emission", medium.emission},
+                                 {"absorption", medium.absorption}});
+    json["lights"] = Json::array();
+    for (const auto& light : e.lights) json["lights"].push_back(light_json(light));
+    json["warnings"] = e.warnings;
+    return json;
+}
+
+void bind_optics(const Json& json, Enclosure& e) {
+    e.bands = json.at("bands").get<std::size_t>();
+    e.open = json.at("open").get<bool>();
+    e.mesh.region_count = json.at("region_count").get<std::size_t>();
+    e.mesh.hull_min = vector_of(json.at("hull_min"));
+    e.mesh.hull_max = vector_of(json.at("hull_max"));
+    e.environment = json.at("environment").get<Spectrum>();
+    for (const auto& side : json.at("sides"))
+        e.sides.push_back({side.at("name").get<std::string>(),
+                           side.at("surface").get<std::size_t>(),
+                           side.at("back").get<bool>() ? Side::back : Side::front,
+                           side.at("reflectance").get<Spectrum>(),
+                           side.at("emission").get<Spectrum>(), side.at("area").get<double>()});
+    for (const auto& medium : json.at("media"))
+        e.media.push_back(
+            {medium.at("name").get<std::string>(), medium.at("extinction").get<Spectrum>(),
+             medium.at("albedo").get<Spectrum>(), medium.at("emission").get<Spectrum>(),
+             medium.at("absorption").get<Spectrum>()});
+    for (const auto& light : json.at("lights")) e.lights.push_back(light_of(light));
+    e.warnings = json.at("warnings").get<std::vector<std::string>>();
+}
+
+// Every spectrum has a value a band.
+bool spectra_fit(const Enclosure& e) {
+    const auto fits = [&](const Spectrum& s) { return s.size() == e.bands; };
+    bool good = e.bands >= 1 && fits(e.environment);
+    for (const auto& side : e.sides) good = good && fits(side.reflectance) && fits(side.emission);
+    for (const auto& m : e.media)
+        good =
+            good && fits(m.extinction) && fits(m.albedo) && fits(m.emission) && fits(m.absorption);
+    for (const auto& light : e.lights)
+        good = good && std::visit(
+                           [&](const auto& source) {
+                               if constexpr (requires { source.irradiance; })
+                                   return fits(source.irradiance);
+                               else
+                                   return fits(source.intensity);
+                           },
+                           light.source);
+    return good;
+}
+
+void read_optics(const Hdf5Reader& file, Enclosure& e) {
+    const std::string path = folder + "/optics";
+    try {
+        bind_optics(Json::parse(file.text(path)), e);
+    } catch (const Json::exception& error) {
+        file.fail(fmt::format("'{}' is damaged ({})", path, error.what()));
+    }
+    if (!spectra_fit(e)) file.fail(fmt::format("'{}' has other counts of bands", path));
+}
+
+// An array of indices below `limit`, or none where that may be.
+std::vector<std::uint32_t> indices(const Hdf5Reader& file, const std::string& name,
+                                   std::size_t columns, std::size_t limit, bool may_be_none) {
+    auto values = file.array<std::uint32_t>(folder + "/" + name, columns);
+    for (const auto value : values)
+        if (value >= limit && !(may_be_none && value == none))
+            file.fail(fmt::format("'{}/{}' points beyond its table ({} of {})", folder, name, value,
+                                  limit));
+    return values;
+}
+
+void expect_rows(const Hdf5Reader& file, const std::string& name, std::size_t rows,
+                 std::size_t expected) {
+    if (rows != expected)
+        file.fail(fmt::format("'{}/{}' has {} rows instead of {}", folder, name, rows, expected));
+}
+
+void write_facets(Hdf5Writer& file, const Enclosure& e) {
+    std::vector<std::array<VertexId, 3>> corners;
+    std::vector<std::array<TetId, 2>> tets;
+    std::vector<std::uint32_t> sources, sides;
+    std::vector<std::uint8_t> opaque;
+    for (std::size_t f = 0; f < e.mesh.facets.size(); ++f) {
+        const auto& facet = e.mesh.facets[f];
+        corners.push_back(facet.corners);
+        tets.push_back(facet.tets);
+        sources.push_back(facet.source.value);
+        opaque.push_back(facet.opacity == mesh::Opacity::opaque);
+        for (const auto side : e.facet_sides[f]) sides.push_back(side);
+    }
+    file.array(folder + "/facet_corners", flat(corners), 3);
+    file.array(folder + "/facet_tets", flat(tets), 2);
+    file.array(folder + "/facet_source", sources);
+    file.array(folder + "/facet_opaque", opaque);
+    file.array(folder + "/facet_sides", sides, 2);
+}
+
+void read_facets(const Hdf5Reader& file, Enclosure& e) {
+    const auto corners =
+        rows_of<mesh::VertexTag, 3>(indices(file, "facet_corners", 3, e.mesh.points.size(), false));
+    const auto tets =
+        rows_of<mesh::TetTag, 2>(indices(file, "facet_tets", 2, e.mesh.tets.size(), true));
+    const auto sources = file.array<std::uint32_t>(folder + "/facet_source");
+    const auto opaque = file.array<std::uint8_t>(folder + "/facet_opaque");
+    const auto sides = indices(file, "facet_sides", 2, e.sides.size(), true);
+    expect_rows(file, "facet_tets", tets.size(), corners.size());
+    expect_rows(file, "facet_source", sources.size(), corners.size());
+    expect_rows(file, "facet_opaque", opaque.size(), corners.size());
+    expect_rows(file, "facet_sides", sides.size() / 2, corners.size());
+    for (std::size_t f = 0; f < corners.size(); ++f) {
+        e.mesh.facets.push_back({corners[f], FacetId(sources[f]),
+                                 opaque[f] != 0 ? mesh::Opacity::opaque : mesh::Opacity::interface,
+                                 tets[f]});
+        e.facet_sides.push_back({sides[2 * f], sides[2 * f + 1]});
+    }
+}
+
+void read_tets(const Hdf5Reader& file, Enclosure& e) {
+    const auto points = file.array<double>(folder + "/points", 3);
+    if (!std::all_of(points.begin(), points.end(), [](double v) { return std::isfinite(v); }))
+        file.fail("a point of the mesh is not finite");
+    for (std::size_t k = 0; k < points.size(); k += 3)
+        e.mesh.points.push_back({points[k], points[k + 1], points[k + 2]});
+    e.mesh.tets = rows_of<mesh::VertexTag, 4>(indices(file, "tets", 4, points.size() / 3, false));
+    const std::size_t count = e.mesh.tets.size();
+    e.mesh.neighbours = rows_of<mesh::TetTag, 4>(indices(file, "neighbours", 4, count, true));
+    expect_rows(file, "neighbours", e.mesh.neighbours.size(), count);
+}
+
+void read_regions(const Hdf5Reader& file, Enclosure& e) {
+    const std::size_t count = e.mesh.tets.size();
+    e.mesh.tet_facets =
+        rows_of<mesh::FacetTag, 4>(indices(file, "tet_facets", 4, e.mesh.facets.size(), true));
+    expect_rows(file, "tet_facets", e.mesh.tet_facets.size(), count);
+    for (const auto region : indices(file, "regions", 1, e.mesh.region_count, false))
+        e.mesh.regions.push_back(RegionId(region));
+    expect_rows(file, "regions", e.mesh.regions.size(), count);
+    e.region_medium = indices(file, "region_medium", 1, e.media.size(), true);
+    expect_rows(file, "region_medium", e.region_medium.size(), e.mesh.region_count);
+    const auto solid = file.array<std::uint8_t>(folder + "/region_solid");
+    expect_rows(file, "region_solid", solid.size(), e.mesh.region_count);
+    e.region_solid.assign(solid.begin(), solid.end());
+}
+
+}  // namespace
+
+void write_enclosure(Hdf5Writer& file, const Enclosure& e) {
+    file.group(folder);
+    file.text(folder + "/optics",
+              optics_json(e).dump(1, ' ', false, Json::error_handler_t::replace));
+    std::vector<double> points;
+    for (const Point& p : e.mesh.points) points.insert(points.end(), {p.x, p.y, p.z});
+    file.array(folder + "/points", points, 3);
+    file.array(folder + "/tets", flat(e.mesh.tets), 4);
+    file.array(folder + "/neighbours", flat(e.mesh.neighbours), 4);
+    file.array(folder + "/tet_facets", flat(e.mesh.tet_facets), 4);
+    std::vector<std::uint32_t> regions;
+    for (const RegionId region : e.mesh.regions) regions.push_back(region.value);
+    file.array(folder + "/regions", regions);
+    write_facets(file, e);
+    file.array(folder + "/region_medium", e.region_medium);
+    file.array(folder + "/region_solid",
+               std::vector<std::uint8_t>(e.region_solid.begin(), e.region_solid.end()));
+}
+
+Enclosure read_enclosure(const Hdf5Reader& file) {
+    Enclosure enclosure;
+    read_optics(file, enclosure);
+    read_tets(file, enclosure);
+    read_facets(file, enclosure);
+    read_regions(file, enclosure);
+    return enclosure;
+}
+
+}  // namespace tyndall::radiosity

@@ -1,0 +1,180 @@
+// The elements as VTKHDF, version 1.0:
+// https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html
+#include <array>
+#include <numbers>
+
+#include "radiosity/solution_parts.h"
+
+namespace tyndall::radiosity {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+constexpr std::uint8_t vtk_triangle = 5, vtk_tetra = 10;
+
+// x = e + a H of an element, with what of it is known.
+struct Equation {
+    double emission, scatter;
+    Affine incident;  // H
+
+    Affine radiance() const {
+        return {scatter * incident.gradient, emission + scatter * incident.constant};
+    }
+};
+
+template <class Node>
+Equation equation(const Solution& s, Node node, std::size_t band) {
+    const Affine &direct = s.direct.at(node, band), &indirect = s.indirect.at(node, band);
+    return {emission_of(s, node, band),
+            scatter_of(s, node, band),
+            {direct.gradient + indirect.gradient, direct.constant + indirect.constant}};
+}
+
+// The arrays of the grid, filled element by element.
+class Grid {
+  public:
+    explicit Grid(const Solution& solution)
+        : s_(solution), e_(*solution.enclosure), bands_(e_.bands) {
+        const Elements elements = elements_of_leaves(e_, s_.forest);
+        for (const PatchId patch : elements.patches) add(patch);
+        for (const ZoneId zone : elements.zones) add(zone);
+    }
+
+    void write(Hdf5Writer& file) const {
+        file.group("/VTKHDF");
+        file.attribute("/VTKHDF", "Version", std::vector<std::int64_t>{1, 0});
+        file.attribute("/VTKHDF", "Type", std::string("UnstructuredGrid"));
+        using Count = std::vector<std::int64_t>;
+        file.array("/VTKHDF/NumberOfPoints", Count{static_cast<std::int64_t>(points_.size() / 3)});
+        file.array("/VTKHDF/NumberOfCells", Count{static_cast<std::int64_t>(types_.size())});
+        file.array("/VTKHDF/NumberOfConnectivityIds",
+                   Count{static_cast<std::int64_t>(connectivity_.size())});
+        file.array("/VTKHDF/Points", points_, 3);
+        file.array("/VTKHDF/Connectivity", connectivity_);
+        file.array("/VTKHDF/Offsets", offsets_);
+        file.array("/VTKHDF/Types", types_);
+        file.group("/VTKHDF/PointData");
+        file.array("/VTKHDF/PointData/radiance", radiance_, bands_);
+        write_cells(file);
+        file.group("/VTKHDF/FieldData");
+        std::vector<std::string> names;
+        for (const auto& side : e_.sides) names.push_back(side.name);
+        for (const auto& medium : e_.media) names.push_back(medium.name);
+        if (!names.empty()) file.texts("/VTKHDF/FieldData/names", names);
+    }
+
+  private:
+    void write_cells(Hdf5Writer& file) const {
+        const std::string folder = "/VTKHDF/CellData";
+        file.group(folder);
+        for (std::size_t k = 0; k < quantities; ++k)
+            file.array(folder + "/" + quantity_names[k], values_[k], bands_);
+        file.array(folder + "/source_radiance_gradient", gradient_, 3 * bands_);
+        file.array(folder + "/error", error_);
+        file.array(folder + "/level", level_);
+        file.array(folder + "/parent", parent_);
+        file.array(folder + "/kind", kind_);
+        file.array(folder + "/name_id", name_id_);
+    }
+
+    template <class Node>
+    void add_common(Node node, Point centroid) {
+        const auto& corners = s_.forest[node].corners;
+        for (const VertexId corner : corners) {
+            const Point p = s_.forest.point(corner);
+            connectivity_.push_back(static_cast<std::int64_t>(points_.size() / 3));
+            points_.insert(points_.end(), {p.x, p.y, p.z});
+            for (std::size_t b = 0; b < bands_; ++b)
+                radiance_.push_back(equation(s_, node, b).radiance().at(p));
+        }
+        offsets_.push_back(static_cast<std::int64_t>(connectivity_.size()));
+        const auto parent = s_.forest[node].parent;
+        level_.push_back(static_cast<std::int32_t>(s_.forest[node].level));
+        parent_.push_back(parent.valid() ? static_cast<std::int64_t>(parent.value) : -1);
+        for (std::size_t b = 0; b < bands_; ++b) {
+            const Equation q = equation(s_, node, b);
+            const Affine radiance = q.radiance();
+            const double x = radiance.at(centroid);
+            for (int k = 0; k < 3; ++k) gradient_.push_back(radiance.gradient[k]);
+            values_[radiosity].push_back(pi * x);
+            values_[source_radiance].push_back(x);
+            values_[incident].push_back(q.incident.at(centroid));
+            values_[albedo].push_back(q.scatter);
+        }
+    }
+
+    void add(PatchId patch) {
+        const Point centroid = s_.forest.centroid(patch);
+        add_common(patch, centroid);
+        types_.push_back(vtk_triangle);
+        kind_.push_back(0);
+        error_.push_back(s_.patch_error[patch.value]);
+        name_id_.push_back(static_cast<std::int32_t>(side_of(e_, s_.forest, patch)));
+        for (std::size_t b = 0; b < bands_; ++b) {
+            const Equation q = equation(s_, patch, b);
+            const double h = q.incident.at(centroid);
+            values_[irradiance].push_back(pi * h);
+            // x − H, written so that nothing cancels where everything is reflected.
+            values_[net_flux].push_back(pi * (q.emission - (1.0 - q.scatter) * h));
+            values_[flux_divergence].push_back(0.0);
+            values_[emission].push_back(q.emission);
+            values_[extinction].push_back(0.0);
+        }
+    }
+
+    void add(ZoneId zone) {
+        const Point centroid = s_.forest.centroid(zone);
+        add_common(zone, centroid);
+        types_.push_back(vtk_tetra);
+        kind_.push_back(1);
+        error_.push_back(s_.zone_error[zone.value]);
+        const auto medium = medium_of(e_, s_.forest, zone);
+        name_id_.push_back(static_cast<std::int32_t>(e_.sides.size() + medium));
+        const MediumOptics& optics = e_.media[medium];
+        for (std::size_t b = 0; b < bands_; ++b) {
+            const Equation q = equation(s_, zone, b);
+            const double h = q.incident.at(centroid), kappa = optics.extinction[b];
+            values_[irradiance].push_back(0.0);
+            values_[net_flux].push_back(0.0);
+            // 4 pi kappa_a (J_e − H), likewise.
+            values_[flux_divergence].push_back(4.0 * pi * kappa *
+                                               (q.emission - (1.0 - q.scatter) * h));
+            values_[emission].push_back(
+                optics.absorption[b] > 0.0 ? q.emission * kappa / optics.absorption[b] : 0.0);
+            values_[extinction].push_back(kappa);
+        }
+    }
+
+    enum Quantity {
+        radiosity,
+        source_radiance,
+        incident,
+        irradiance,
+        net_flux,
+        flux_divergence,
+        emission,
+        extinction,
+        albedo,
+        quantities
+    };
+    static constexpr std::array<const char*, quantities> quantity_names{
+        "radiosity",       "source_radiance", "incident",   "irradiance", "net_flux",
+        "flux_divergence", "emission",        "extinction", "albedo"};
+
+    const Solution& s_;
+    const Enclosure& e_;
+    std::size_t bands_;
+    std::vector<double> points_, radiance_, gradient_;
+    std::vector<std::int64_t> connectivity_, offsets_{0}, parent_;
+    std::vector<std::uint8_t> types_, kind_;
+    std::vector<std::int32_t> level_, name_id_;
+    std::vector<float> error_;
+    std::array<std::vector<double>, quantities> values_;
+};
+
+}  // namespace
+
+void write_grid(Hdf5Writer& file, const Solution& solution) {
+    Grid(solution).write(file);
+}
+
+}  // namespace tyndall::radiosity
