@@ -128,7 +128,7 @@ void add_probe_command(Shell& shell) {
                     "CSV with x,y,z (J and G) or x,y,z,nx,ny,nz (irradiance)")
         ->required();
     command.add_option("-o,--output", options->out, "CSV to write; else standard output");
-    command.add_option("--rays", options->rays, "Gathered along at each point", true)
+    command.add_option("--rays", options->rays, "Gathered along at each point; 4096 if not given")
         ->check(CLI::Range(std::size_t(1), std::size_t(1) << 24));
 }
 

@@ -29,29 +29,60 @@ Probe::Probe(const Solution& solution, const ProbeOptions& options)
       points_(options.rays),
       step_(relative_step * diagonal(solution.enclosure->mesh)) {}
 
-// The tet that holds x, or holds a point a step from it in the direction `towards` (0: nowhere).
-// Where walls meet, the tet that is found may lie behind one of them: then a place just beside x
-// counts.
-Probe::Place Probe::place(Point x, Direction towards) const {
+// Off the walls of the tet that x touches, so that which side of them it is on is beyond doubt.
+Point Probe::off_walls(Point x, TetId tet) const {
+    const auto& mesh = solution_.enclosure->mesh;
+    for (const FacetId facet : mesh.tet_facets[tet.value]) {
+        if (!facet.valid() || mesh.facets[facet.value].opacity != mesh::Opacity::opaque) continue;
+        const auto& wall = mesh.facets[facet.value];
+        Direction inward = mesh::normal(mesh, facet);
+        if (wall.tets[0] != tet) inward = -inward;
+        const double height = glm::dot(inward, x - mesh.points[wall.corners[0].value]);
+        if (height < step_) x += (step_ - height) * inward;
+    }
+    return x;
+}
+
+// Whether one of the tet's faces is a wall that x lies on and the normal looks away from.
+bool Probe::stands_on(Point x, Direction normal, TetId tet) const {
+    const auto& mesh = solution_.enclosure->mesh;
+    for (const FacetId facet : mesh.tet_facets[tet.value]) {
+        if (!facet.valid() || mesh.facets[facet.value].opacity != mesh::Opacity::opaque) continue;
+        const auto& wall = mesh.facets[facet.value];
+        Direction inward = mesh::normal(mesh, facet);
+        if (wall.tets[0] != tet) inward = -inward;
+        const double height = glm::dot(inward, x - mesh.points[wall.corners[0].value]);
+        if (glm::dot(inward, normal) > 0.99 && std::abs(height) < step_) return true;
+    }
+    return false;
+}
+
+// The tet that holds x, or the point a step from it along the normal (0: none). Where walls meet,
+// the tet that is found may lie behind one of them: a place just beside x counts, too, first of all
+// one above a wall that x lies on.
+Probe::Place Probe::place(Point x, Direction normal) const {
     const Enclosure& e = *solution_.enclosure;
-    const Point stepped = x + step_ * towards;
+    const Point stepped = x + step_ * normal;
     const TetId first = mesh::locate(e.mesh, stepped);
-    if (first.valid() && !e.solid(first)) return {stepped, first};
-    // Beside: all neighbours on a grid of half steps, those across the normal first.
-    for (const double forward : {0.0, 1.0})
-        for (int k = 0; k < 27; ++k) {
-            const Direction offset(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
-            const double along = glm::dot(offset, towards);
-            if (towards != Direction(0.0) &&
-                (forward == 0.0 ? std::abs(along) > 1e-9 : along < 0.0))
-                continue;
-            const Point beside = stepped + 0.5 * step_ * offset;
-            const TetId tet = mesh::locate(e.mesh, beside, first.valid() ? first : TetId(0));
-            if (tet.valid() && !e.solid(tet)) return {beside, tet};
-        }
+    std::vector<Place> places;
+    const auto consider = [&](Point p, TetId tet) {
+        if (tet.valid() && !e.solid(tet)) places.push_back({p, tet});
+    };
+    consider(stepped, first);
+    if (normal == Direction(0.0) && !places.empty()) return {off_walls(x, first), first};
+    if (!places.empty() && stands_on(x, normal, first)) return places.front();
+    for (int k = 0; k < 27; ++k) {
+        Direction offset(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
+        offset -= glm::dot(offset, normal) * normal;
+        const Point beside = stepped + 0.5 * step_ * offset;
+        consider(beside, mesh::locate(e.mesh, beside, first.valid() ? first : TetId(0)));
+    }
+    for (const Place& place : places)
+        if (stands_on(x, normal, place.tet)) return place;
+    if (!places.empty()) return places.front();
     throw mesh::InputError(fmt::format("the point [{}, {}, {}] {}. Move it{}.", x.x, x.y, x.z,
                                        first.valid() ? "lies in a solid" : "lies outside the scene",
-                                       towards != Direction(0.0) ? ", or turn its normal" : ""));
+                                       normal != Direction(0.0) ? ", or turn its normal" : ""));
 }
 
 std::vector<Gathered> Probe::gathered(const Place& place, Direction normal) const {

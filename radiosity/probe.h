@@ -45,7 +45,9 @@ class Probe {
         Point x;
         TetId tet;
     };
-    Place place(Point x, Direction towards) const;
+    Place place(Point x, Direction normal) const;
+    Point off_walls(Point x, TetId tet) const;
+    bool stands_on(Point x, Direction normal, TetId tet) const;
     std::vector<Gathered> gathered(const Place& place, Direction normal) const;
 
     const Solution& solution_;
