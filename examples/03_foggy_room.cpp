@@ -30,8 +30,9 @@ int main() {
     std::printf("%zu patches, %zu zones, estimated error %.3f\n\n", report.patches, report.zones,
                 report.estimated_error);
 
-    // Net power is what goes out less what comes in: of the panel what it is fed, of a wall less
-    // than nothing. The sum is zero if no light is lost or made up.
+    // Net power is what goes out less what comes in: of the panel its 100 W less what the room
+    // sends back, of walls and fog what they absorb, with a minus. The sum is zero if no light is
+    // lost or made up.
     double sum = 0.0;
     for (const auto& [name, power] : report.net_power) {
         std::printf("%-16s %8.2f W\n", name.c_str(), power[0]);

@@ -20,7 +20,7 @@ int main(int argc, char** argv) {
     // A room with a window in the wall at x = 0, plaster inside, black outside.
     radiosity::Scene scene;
     const mesh::FaceOpening window{"x0", {"window", {1.2, 1.1}, {1.0, 1.2}}};  // corner, size [m]
-    add_surface(scene, "room", mesh::room({0, 0, 0}, {5, 4, 3}, {window}), {.reflectance = {0.5}},
+    add_surface(scene, "room", mesh::room({0, 0, 0}, {5, 4, 3}, {window}), {.reflectance = {0.3}},
                 radiosity::Material{.reflectance = {0.0}});
     scene.media = {{.name = "haze",
                     .extinction = {0.15},  // [1/m]
@@ -30,21 +30,21 @@ int main(int argc, char** argv) {
                              .irradiance = {800.0},             // [W/m^2]
                              .angle = 0.0093};                  // half a degree [rad]
     scene.lights = {{.name = "sun", .source = sun}};
-    scene.environment = {10.0};  // the sky [W/m^2/sr]
+    scene.environment = {4.0};  // the sky [W/m^2/sr]
 
     render::Camera camera;
-    camera.eye = {4.4, 0.3, 1.4};
-    camera.target = {1.3, 2.4, 1.2};
+    camera.eye = {3.5, 0.25, 1.3};
+    camera.target = {1.3, 2.6, 0.95};
     camera.fov_x = 1.2;  // [rad]
-    camera.width = 240;
-    camera.height = 180;
+    camera.width = 320;
+    camera.height = 240;
     scene.viewpoints = {camera.eye};
 
     // Mesh, solve for the camera, render, write. A goal of 0.01 makes a picture to keep.
     const auto enclosure =
         std::make_shared<const radiosity::Enclosure>(radiosity::make_enclosure(scene));
     const auto solution = radiosity::solve_adaptively(
-        enclosure, {.error = 0.1, .max_elements = 20000, .rays = 64, .gather_rays = 64},
+        enclosure, {.error = 0.03, .max_elements = 80000, .rays = 64, .gather_rays = 64},
         camera.view());
     const auto picture = render::line_of_sight(solution, camera, {.samples = 4});
     render::write_image(folder / "light_shaft.png", picture);  // for eyes
