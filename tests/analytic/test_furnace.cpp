@@ -160,9 +160,7 @@ TEST_CASE("Furnace: lamps split off", "[furnace]") {
     }
 }
 
-// Until visible parts whose first three corners lie on a line are handled (mean_transmittance.cpp),
-// H^A is not a number beside the foot of the box.
-TEST_CASE("Furnace: all walls split off", "[furnace][!mayfail]") {
+TEST_CASE("Furnace: all walls split off", "[furnace]") {
     // Two scenes: as emitters the columns' hundreds of facets would take minutes.
     for (const std::string name : {"cornell_fog", "window_shafts"}) {
         INFO(name);
