@@ -1,20 +1,17 @@
 #include "mesh/shapes.h"
 #include "radiosity/adaptive.h"
+#include "radiosity/scene_builder.h"
 #include "render/image_files.h"
 #include "render/line_of_sight.h"
 
 using namespace tyndall;
 
 int main() {
-    // What there is: materials, surfaces, media. Lengths in metres, light in watts.
+    // What there is: surfaces and what they are made of, media. Lengths in metres, light in watts.
     radiosity::Scene scene;
-    scene.materials = {{.name = "plaster", .reflectance = {0.7}},
-                       {.name = "lamp", .reflectance = {0.0}, .emission = {500.0}}};
-    for (const auto& face : mesh::room({0, 0, 0}, {4, 3, 3})) {
-        scene.surfaces.push_back({"room." + face.name, face.polygons, 0, {}});
-    }
-    const auto panel = mesh::rectangle({1.5, 1, 3}, {0, 1, 0}, {1, 0, 0});
-    scene.surfaces.push_back({"panel", panel[0].polygons, 1, {}});
+    add_surface(scene, "room", mesh::room({0, 0, 0}, {4, 3, 3}), {.reflectance = {0.7}});
+    add_surface(scene, "panel", mesh::rectangle({1.5, 1, 3}, {0, 1, 0}, {1, 0, 0}),
+                {.reflectance = {0.0}, .emission = {500.0}});
     scene.media = {{.name = "smoke", .extinction = {0.3}, .albedo = {0.9}}};
 
     // Who looks, and how much the picture should be worth.
