@@ -93,9 +93,10 @@ struct Workplace {
     std::string read(const std::string& name) const { return mesh::read_file(path / name); }
     bool has(const std::string& name) const { return fs::exists(path / name); }
 
-    Outcome run(const std::string& arguments) const {
-        const std::string line = "cd '" + path.string() +
-                                 "' && '" TYNDALL_BINARY_DIR "/bin/tyndall' " + arguments +
+    // `before`: what the shell runs the program with.
+    Outcome run(const std::string& arguments, const std::string& before = "") const {
+        const std::string line = "cd '" + path.string() + "' && " + before +
+                                 " '" TYNDALL_BINARY_DIR "/bin/tyndall' " + arguments +
                                  " >out.txt 2>err.txt";
         const int status = std::system(line.c_str());
         return {WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + status, read("out.txt"),
@@ -165,9 +166,11 @@ TEST_CASE("run writes a solution, pictures and a report") {
 TEST_CASE("a solution file alone makes the run's picture again, and others") {
     const Workplace place;
     place.good("run box.toml -o out --quiet --seed 7");
-    place.write("box.toml", "gone");
     place.good("render out/ -o again.exr");
     CHECK(place.read("again.exr") == place.read("out/image.exr"));
+    const auto solved = place.good("solve box.toml -o out --seed 7");
+    CHECK_THAT(solved, Contains("of an earlier run"));
+    place.write("box.toml", "gone");
     place.good("render out/ -o again.png");
     CHECK(place.read("again.png") == place.read("out/image.png"));
     place.good("render out/solution.vtkhdf --seed 8 -o other.exr --quiet");
@@ -244,6 +247,38 @@ TEST_CASE("probe writes the points in order, with values") {
     CHECK(json["rows"][0][6].get<double>() > json["rows"][0][7].get<double>());
     CHECK(json["rows"][0][7].get<double>() > 0.0);
     CHECK(json["rows"][1][7].get<double>() == 0.0);
+}
+
+TEST_CASE("three bands have a column and a channel each") {
+    const Workplace place;
+    place.good("run box.toml -o out --quiet --set bands=3 --set material.lamp.emission=[10,5,0]");
+    place.write("points.csv", "1,1,1\n");
+    const auto csv = place.good("probe out --points points.csv --rays 64");
+    CHECK(csv.rfind("x,y,z,J_0,J_1,J_2,J_direct_0,J_direct_1,J_direct_2,G_0,", 0) == 0);
+    const auto rows = numbers(csv);
+    REQUIRE(rows.at(0).size() == 15);
+    // All is linear in the emission; the gather sums single-precision fields.
+    CHECK(rows[0][3] == Approx(2.0 * rows[0][4]).epsilon(1e-5));
+    CHECK(rows[0][5] == 0.0);
+    place.good("render out -o a.pfm");
+    CHECK(render::read_image(place.path / "a.pfm").layers[0].channels == 3);
+    CHECK(place.good("render out -o a.exr") != "");
+    CHECK(place.read("a.exr") == place.read("out/image.exr"));
+}
+
+TEST_CASE("an interrupt leaves a solution that can be used") {
+    const Workplace place;
+    // Enough to do for many seconds.
+    const auto outcome = place.run(
+        "run box.toml -o out --set solve.error=1e-4 --set solve.max_elements=200000 "
+        "--set solve.gather_rays=512",
+        "timeout --preserve-status -s INT 1");
+    CHECK(outcome.code == 0);
+    CHECK_THAT(outcome.out, Contains("stopped on request"));
+    CHECK(!place.has("out/image.exr"));
+    const auto report = nlohmann::json::parse(place.read("out/report.json"));
+    CHECK(!report["warnings"].empty());
+    place.good("render out -o a.png");
 }
 
 TEST_CASE("check tells about a scene and writes nothing") {
