@@ -52,6 +52,10 @@ int run(const RunOptions& options, const CommonFlags& flags, Picture picture) {
         const auto missing = write_picture(file, solution, folder, progress, facts);
         if (!missing.empty()) solution.report.warnings.push_back(missing);
     }
+    const bool pictured = facts.written.size() > 1;
+    if (!pictured && fs::exists(folder / "image.exr"))
+        solution.report.warnings.push_back("image.exr in '" + folder.string() +
+                                           "' is of an earlier run.");
     facts.written.push_back(folder / "report.json");
     const auto report = report_text(solution.report, facts);
     mesh::write_file(folder / "report.json", report);

@@ -11,12 +11,12 @@ namespace {
 
 using mesh::Point;
 
-// Measured with /usr/bin/time on the example scenes; good within a factor of two.
-constexpr double process_bytes = 60e6;
-constexpr double element_bytes = 900.0, element_band_bytes = 400.0;
+// Measured on the example scenes; good within a factor of two.
+constexpr double process_bytes = 35e6;
+constexpr double element_bytes = 800.0, element_band_bytes = 300.0;
 constexpr double row_entry_bytes = 12.0;   // column and value
 constexpr double crossings = 10.0;         // elements that a ray of a row meets
-constexpr double start_elements = 5500.0;  // of the coarse solution, roots aside
+constexpr double start_elements = 5500.0;  // of the coarse solution, if the base mesh has fewer
 
 double polygon_area(const std::vector<Point>& corners) {
     glm::dvec3 sum(0.0);
@@ -85,7 +85,7 @@ void foresee_memory(const SceneFile& file, const radiosity::Enclosure& e, SceneS
     const double bands = static_cast<double>(e.bands);
     const double roots = static_cast<double>(2 * e.mesh.facets.size() + e.mesh.tets.size());
     const double limit = static_cast<double>(file.solve.max_elements);
-    const double coarse = std::min(limit, start_elements + roots);
+    const double coarse = std::min(limit, std::max(start_elements, roots));
     const double per_row = std::min(coarse, crossings * static_cast<double>(file.solve.rays));
     const double per_element = element_bytes + element_band_bytes * bands;
     const double rows = coarse * per_row * row_entry_bytes;

@@ -279,6 +279,7 @@ Report Loop::finish(const CoarseSolution& coarse) {
     report.passes = passes_;
     report.solver = coarse.report();
     report.stopped = stopped_;
+    report.lost_rays = coarse.lost_rays();
     report.estimated_error = std::sqrt(squared_error_);
     for (std::size_t b = 0; b < enclosure_->bands; ++b) {
         report.closure_error =

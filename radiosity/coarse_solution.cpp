@@ -28,9 +28,12 @@ CoarseSolution::CoarseSolution(const Enclosure& enclosure, const Forest& forest,
             continue;
         }
         matrix_.push_back(areas_.size());
-        areas_.push_back(all_rows(
-            exchange_walked, {enclosure, forest, elements_},
-            {.band = band, .rays = options.rays, .seed = options.seed, .progress = progress}));
+        areas_.push_back(all_rows(exchange_walked, {enclosure, forest, elements_},
+                                  {.band = band,
+                                   .rays = options.rays,
+                                   .seed = options.seed,
+                                   .progress = progress,
+                                   .lost_rays = &lost_rays_}));
         rays_ += elements_.size() * options.rays;
     }
 }

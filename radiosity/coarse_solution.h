@@ -18,6 +18,7 @@ class CoarseSolution {
     const Forest& forest() const { return forest_; }
     const ExchangeAreas& areas(std::size_t band) const { return areas_[matrix_[band]]; }
     std::size_t rays() const { return rays_; }
+    std::size_t lost_rays() const { return lost_rays_; }  // of them, by the walk's step cap
     std::size_t memory() const;
 
     // Solves for r given H^A of every element ([element * bands + band]):
@@ -47,6 +48,7 @@ class CoarseSolution {
     std::vector<double> indirect_, reflected_;
     SolverReport report_;
     std::size_t rays_ = 0;
+    std::atomic<std::size_t> lost_rays_ = 0;
 };
 
 }  // namespace tyndall::radiosity

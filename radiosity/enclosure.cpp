@@ -131,8 +131,7 @@ class Binder {
                 const TetId tet = facet.tets[side == Side::back];
                 if (!tet.valid()) continue;
                 const auto region = mesh_.regions[tet.value].value;
-                const bool back =
-                    facet.opacity == Opacity::opaque && owner(FacetId(f), side).side == Side::back;
+                const bool back = facet.opacity == Opacity::opaque && backs(FacetId(f), side);
                 (back ? has_back : has_other)[region] = true;
             }
         }

@@ -1,6 +1,7 @@
 // Exchange areas: what a method takes and gives, and rows kept as a sparse matrix.
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <span>
 #include <vector>
@@ -22,6 +23,8 @@ struct ExchangeOptions {
     std::size_t rays = 256;  // a row
     std::uint64_t seed = 1;
     ProgressCallback progress;
+    std::atomic<std::size_t>* lost_rays =
+        nullptr;  // counts rays that hit the walk's step cap: bugs
 };
 
 // Receives the rows, in the order asked for: the receiver, the columns (ascending;

@@ -116,6 +116,7 @@ class Walker {
 
     std::uint32_t arrival(const mesh::WalkEnd& end, const mesh::Ray& ray) const {
         const auto outside = static_cast<std::uint32_t>(d_.elements.outside());
+        if (end.arrival == mesh::Arrival::lost && options_.lost_rays) ++*options_.lost_rays;
         if (end.arrival != mesh::Arrival::struck) return outside;
         const PatchId leaf = d_.forest.leaf_at(mesh::root_patch(end.facet, end.side),
                                                ray.origin + end.distance * ray.direction);

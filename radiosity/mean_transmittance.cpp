@@ -171,9 +171,14 @@ void mean_transmittance(const OpticalDepth& depth, const Receiver& receiver,
         open.push_back(
             {corners[0], corners[k], corners[k + 1],
              0.5 * glm::length(glm::cross(corners[k] - corners[0], corners[k + 1] - corners[0]))});
-    const Direction normal =
-        glm::normalize(glm::cross(corners[1] - corners[0], corners[2] - corners[0]));
-    Mean sum(depth, receiver, hull, std::abs(glm::dot(normal, corners[0])), mean.size(), scratch);
+    // Over all corners: the first three may lie on one line.
+    Direction normal(0.0);
+    for (std::size_t k = 1; k + 1 < corners.size(); ++k)
+        normal += glm::cross(corners[k] - corners[0], corners[k + 1] - corners[0]);
+    const double length = glm::length(normal);
+    if (!(length > 0.0)) return;  // a part without area sends nothing
+    Mean sum(depth, receiver, hull, std::abs(glm::dot(normal, corners[0])) / length, mean.size(),
+             scratch);
     for (std::size_t count = open.size(); !open.empty();) {
         const Triangle t = open.back();
         open.pop_back();

@@ -31,7 +31,7 @@ struct SolveOptions {
     DirectLightMode direct_light = DirectLightMode::closed_form;
     double element_size =
         0.0;  // longest edge of the initial elements [m]; 0: chosen from the scene
-    std::size_t max_elements = 60000;     // leaves, patches and zones together
+    std::size_t max_elements = 150000;    // leaves, patches and zones together
     std::size_t max_memory = 2ull << 30;  // [byte]
     double max_time = 0.0;                // wall time; 0: no limit [s]
     std::size_t max_passes = 12;          // of refinement

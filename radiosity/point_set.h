@@ -15,8 +15,9 @@ namespace tyndall::radiosity {
 inline constexpr std::size_t point_set_dimensions =
     5;  // three for a place in a tet, two for a direction
 
-// `count` points in the unit cube of five dimensions. Any power of two is stratified in every pair
-// of dimensions; seeds give independent scramblings of the same set.
+// `count` points in the unit cube of five dimensions. Of any power of two, the first pair of
+// dimensions is a (0, m, 2)-net and every other pair a (1, m, 2)-net: stratified to one and two
+// points an elementary interval. Seeds give independent scramblings of the same set.
 class PointSet {
   public:
     explicit PointSet(std::size_t count);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
@@ -29,18 +31,21 @@ Probe::Probe(const Solution& solution, const ProbeOptions& options)
       points_(options.rays),
       step_(relative_step * diagonal(solution.enclosure->mesh)) {}
 
-// Off the walls of the tet that x touches, so that which side of them it is on is beyond doubt.
-Point Probe::off_walls(Point x, TetId tet) const {
+// Off the faces of the tet that holds x, if it lies on one: a point in a wall's plane is on neither
+// side of it. A point inside stays where it is.
+Point Probe::off_faces(Point x, TetId tet) const {
     const auto& mesh = solution_.enclosure->mesh;
-    for (const FacetId facet : mesh.tet_facets[tet.value]) {
-        if (!facet.valid() || mesh.facets[facet.value].opacity != mesh::Opacity::opaque) continue;
-        const auto& wall = mesh.facets[facet.value];
-        Direction inward = mesh::normal(mesh, facet);
-        if (wall.tets[0] != tet) inward = -inward;
-        const double height = glm::dot(inward, x - mesh.points[wall.corners[0].value]);
-        if (height < step_) x += (step_ - height) * inward;
+    std::array<Point, 4> p;
+    for (int k = 0; k < 4; ++k) p[k] = mesh.points[mesh.tets[tet.value][k].value];
+    double least = step_;
+    for (int k = 0; k < 4; ++k) {
+        const auto& [a, b, c] = mesh::face_corners[k];
+        const Direction outward = glm::normalize(glm::cross(p[b] - p[a], p[c] - p[a]));
+        least = std::min(least, glm::dot(outward, p[a] - x));
     }
-    return x;
+    if (least > 0.1 * step_) return x;
+    const Direction inward = 0.25 * (p[0] + p[1] + p[2] + p[3]) - x;
+    return x + std::min(0.5, step_ / glm::length(inward)) * inward;
 }
 
 // Whether one of the tet's faces is a wall that x lies on and the normal looks away from.
@@ -66,11 +71,11 @@ Probe::Place Probe::place(Point x, Direction normal) const {
     const TetId first = mesh::locate(e.mesh, stepped);
     std::vector<Place> places;
     const auto consider = [&](Point p, TetId tet) {
-        if (tet.valid() && !e.solid(tet)) places.push_back({p, tet});
+        if (tet.valid() && !e.solid(tet)) places.push_back({off_faces(p, tet), tet});
     };
     consider(stepped, first);
-    if (normal == Direction(0.0) && !places.empty()) return {off_walls(x, first), first};
-    if (!places.empty() && stands_on(x, normal, first)) return places.front();
+    const bool free = normal == Direction(0.0);
+    if (!places.empty() && (free || stands_on(x, normal, first))) return places.front();
     for (int k = 0; k < 27; ++k) {
         Direction offset(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
         offset -= glm::dot(offset, normal) * normal;

@@ -46,7 +46,7 @@ class Probe {
         TetId tet;
     };
     Place place(Point x, Direction normal) const;
-    Point off_walls(Point x, TetId tet) const;
+    Point off_faces(Point x, TetId tet) const;
     bool stands_on(Point x, Direction normal, TetId tet) const;
     std::vector<Gathered> gathered(const Place& place, Direction normal) const;
 

@@ -143,22 +143,36 @@ TEST_CASE("Furnace: lamps split off", "[furnace]") {
         INFO(path.filename());
         const Furnace f = furnace(path);
         if (std::count(f.lamp.begin(), f.lamp.end(), true) == 0) continue;
-        std::array<double, 2> error;
         Elements elements;
-        for (const int k : {0, 1})
-            error[k] = rms_departure(elements, with_lamps_split_off(f, k ? 1024 : 64, elements));
-        WARN("RMS departure from 1: " << error[0] << " at 64 rays, " << error[1] << " at 1024");
+        const auto departure = [&](std::size_t rays) {
+            const auto x = with_lamps_split_off(f, rays, elements);
+            return rms_departure(elements, x);
+        };
+        const double few = departure(64), many = departure(1024);
+        INFO("RMS departure from 1: " << few << " at 64 rays, " << many << " at 1024");
+        // The rows' noise in what they see of the lamp no longer cancels: measured are 0.42 % and
+        // 0.20 % in the Cornell box (whose lamp is black: all it sends is split off), 0.01 % where
+        // the lamp is small. Of the 0.20 % most is the mean of H^A by one rule of degree 2 on 900
+        // elements: eight times as many leave 0.14 %.
+        CHECK(few < 0.006);
+        CHECK(many < 0.003);
+        CHECK(many < 0.7 * few);
     }
 }
 
 TEST_CASE("Furnace: all walls split off", "[furnace]") {
-    for (const auto& path : scene_files()) {
-        INFO(path.filename());
+    // Two scenes: as emitters the columns' hundreds of facets would take minutes.
+    for (const std::string name : {"cornell_fog", "window_shafts"}) {
+        INFO(name);
         auto options = quick;
         options.direct_light = DirectLightMode::closed_form;
-        const auto enclosure = std::make_shared<const Enclosure>(furnace(path).enclosure);
+        const auto enclosure = std::make_shared<const Enclosure>(
+            furnace(TYNDALL_SOURCE_DIR "/examples/scenes/" + name + ".toml").enclosure);
         const Solution solution = solve_adaptively(enclosure, options);
         const double error = rms_departure(solution.coarse.elements, solution.coarse.radiance);
-        WARN("RMS departure from 1: " << error);
+        INFO("RMS departure from 1: " << error);
+        // On the base mesh, by one rule of degree 2 an element of up to some metres: 0.7 % and
+        // 0.3 % measured.
+        CHECK(error < 0.01);
     }
 }

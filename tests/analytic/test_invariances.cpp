@@ -79,30 +79,34 @@ TEST_CASE("Two parallel unit squares exchange what the closed form says", "[exch
         Forest forest(enclosure.mesh);
         for (int level = 0; level < 4; ++level)
             for (std::size_t p = 0, n = forest.patch_count(); p < n; ++p)
-                if (forest.is_leaf(PatchId(p))) {
+                if (forest.is_leaf(PatchId(p)) && forest.area(PatchId(p)) > 0.02) {
                     const auto [i, j] = forest.longest_edge(PatchId(p));
                     forest.bisect(PatchId(p), i, j);
                 }
         const auto elements = elements_of_leaves(enclosure, forest);
-        const auto areas = all_rows(exchange_walked, {enclosure, forest, elements},
-                                    {.rays = 1024, .progress = {}});
-        // Both fronts look at each other.
-        double sum = 0.0;
+        const auto surface = [&](std::size_t element) {
+            const auto side = side_of(enclosure, forest, elements.patches[element]);
+            return enclosure.sides[side].surface;
+        };
+        std::vector<ElementId> rows;
         for (std::size_t i = 0; i < elements.patches.size(); ++i)
-            for (std::size_t k = areas.starts[i]; k < areas.starts[i + 1]; ++k) {
-                const auto j = areas.columns[k];
-                if (j >= elements.patches.size()) continue;
-                const auto a = side_of(enclosure, forest, elements.patches[i]);
-                const auto b = side_of(enclosure, forest, elements.patches[j]);
-                if (enclosure.sides[a].surface == 0 && enclosure.sides[b].surface == 1)
-                    sum += areas.values[k];
-            }
+            if (surface(i) == 0) rows.push_back(ElementId(i));
+        // Of the rows of both sides of the one square: the other one is seen by its front only.
+        double sum = 0.0;
+        exchange_walked(
+            {enclosure, forest, elements}, rows, {.rays = 1024, .progress = {}},
+            [&](ElementId, std::span<const std::uint32_t> columns, std::span<const double> values) {
+                for (std::size_t k = 0; k < columns.size(); ++k)
+                    if (columns[k] < elements.patches.size() && surface(columns[k]) == 1)
+                        sum += values[k];
+            });
         return sum;
     };
     const double exact = 0.19982489569838746;  // Howell's catalogue, C-11
     const double in_vacuum = exchanged(empty), in_haze = exchanged(thin);
     INFO(in_vacuum / exact - 1.0 << " " << in_haze / exact - 1.0);
-    // 64 patches of 1024 rays: the error of 6.6e4 random rays is 2/√6.6e4 = 0.8 % of F.
+    // 32 patches of 1024 rays: 3.3e4 independent rays would err by 2/√3.3e4 = 1.1 %, stratified
+    // ones are allowed half of that (0.14 % measured).
     CHECK(in_vacuum == Approx(exact).epsilon(0.005));
     // Optical depths of some 1e-7 over the same mesh and rays.
     CHECK(in_haze == Approx(in_vacuum).epsilon(1e-6));
@@ -163,6 +167,7 @@ TEST_CASE("No light leaks through a partition", "[leak]") {
                                 : solution.forest.centroid(coarse.elements.zone(i));
             if (dark(c)) most = std::max(most, coarse.incident[i]);
         }
-        CHECK(most == 0.0);
+        // GMRES turns whole vectors (Householder): rounding reaches every element.
+        CHECK(most < 1e-12 * brightest(solution, solution.direct, lit));
     }
 }

@@ -64,7 +64,7 @@ TEST_CASE("a terminal shows one line that is written over and taken away") {
     CHECK(shown.substr(shown.size() - 4) == "\r\x1b[K");
 }
 
-TEST_CASE("--quiet shows nothing") {
+TEST_CASE("the flag --quiet shows nothing") {
     CommonFlags flags;
     flags.quiet = true;
     CHECK(on_terminal(flags).empty());

@@ -245,7 +245,7 @@ white = 12
     CHECK(file.view_camera == "");
 }
 
-TEST_CASE("--set edits any key; its value is TOML, or a word") {
+TEST_CASE("the flag --set edits any key; its value is TOML, or a word") {
     const std::string text = "format = 1\n" + material + room + R"(
 [[light]]
 name = "sun"
@@ -272,7 +272,7 @@ sun = { direction = [0, 0, -1], irradiance = 800 }
     CHECK(again.solve.max_memory == file.solve.max_memory);
 }
 
-TEST_CASE("--set reaches into openings and quoted names") {
+TEST_CASE("the flag --set reaches into openings and quoted names") {
     const std::string text = "format = 1\n" + material + R"(
 [[surface]]
 name = "my wall"

@@ -177,8 +177,11 @@ TEST_CASE("a library never prints, exits or starts threads of its own") {
         for (const auto& line : matching(folder, forbidden)) {
             // hardware_concurrency only asks; it starts nothing.
             const bool asks = line.text.find("thread::hardware_concurrency") != std::string::npos;
+            // OpenMesh prints by itself; it is told not to.
+            const bool silences = line.text.find("omerr()") != std::string::npos ||
+                                  line.text.find("omlog()") != std::string::npos;
             INFO(place(line));
-            CHECK((is_main(line) || asks));
+            CHECK((is_main(line) || asks || silences));
         }
     }
 }
