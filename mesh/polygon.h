@@ -16,9 +16,9 @@ enum class Opacity : std::uint8_t {
 // A planar simple polygon, convex or not. Its front is the side from which the corners run
 // counter-clockwise (right-hand rule).
 struct Polygon {
-    std::vector<Point> corners;  // at least three [m]
+    std::vector<Point> corners{};  // at least three [m]
     Opacity opacity = Opacity::opaque;
-    std::string name;  // of the surface it belongs to; used in messages only
+    std::string name{};  // of the surface it belongs to; used in messages only
 };
 
 }  // namespace tyndall::mesh

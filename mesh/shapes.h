@@ -11,13 +11,13 @@ namespace tyndall::mesh {
 // A face of a shape. `name` is the part behind the surface's name ("floor"; empty if the shape has
 // one face).
 struct Face {
-    std::string name;
-    std::vector<Polygon> polygons;
+    std::string name{};
+    std::vector<Polygon> polygons{};
 };
 
 // A hole in a rectangle, `corner` and `size` in metres along its two axes.
 struct Opening {
-    std::string name;
+    std::string name{};
     double corner[2];  // [m]
     double size[2];    // [m]
 };
@@ -26,7 +26,7 @@ struct Opening {
 // face's lowest corner: (y, z) for x0 and x1, (x, z) for y0 and y1, (x, y) for floor, ceiling,
 // bottom, top.
 struct FaceOpening {
-    std::string face;  // "x0", …
+    std::string face{};  // "x0", …
     Opening opening;
 };
 

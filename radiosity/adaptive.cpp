@@ -1,7 +1,9 @@
 #include "radiosity/adaptive.h"
 
 #include <fmt/format.h>
+#include <tbb/global_control.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "mesh/input_error.h"
@@ -21,6 +23,32 @@ constexpr double indirect_share = 0.5;
 // rays.
 constexpr double detail_factor = 1.0;
 
+// Constant J in an optically thick zone of the coarse solution overstates what passes through it: 5
+// % of the flux at 0.5 (docs/limits.md).
+constexpr double thin_enough = 0.5;
+
+void warn_of_thick_zones(const Enclosure& enclosure, const CoarseSolution& coarse, Report& report) {
+    const Elements& e = coarse.elements();
+    double thickest = 0.0;
+    std::uint32_t medium = 0;
+    for (const ZoneId zone : e.zones) {
+        const auto m = medium_of(enclosure, coarse.forest(), zone);
+        const double size = std::cbrt(coarse.forest().volume(zone));
+        for (const double extinction : enclosure.media[m].extinction)
+            if (extinction * size > thickest) {
+                thickest = extinction * size;
+                medium = m;
+            }
+    }
+    if (thickest > thin_enough)
+        report.warnings.push_back(fmt::format(
+            "zones of medium \"{}\" in the coarse solution are up to {:.2g} optical depths thick: "
+            "fluxes through them are overstated. Set solve.element_size to {:.2g} m or less.",
+            enclosure.media[medium].name, thickest,
+            thin_enough / *std::max_element(enclosure.media[medium].extinction.begin(),
+                                            enclosure.media[medium].extinction.end())));
+}
+
 // The loop's state, step by step; each step leaves something that a valid solution can be made of.
 class Loop {
   public:
@@ -29,7 +57,10 @@ class Loop {
         : enclosure_(std::move(enclosure)),
           options_(options),
           view_(view),
-          progress_(progress),
+          progress_([this, progress, began = wall_seconds()](const Progress& now) {
+              out_of_time_ = options_.max_time > 0.0 && wall_seconds() - began > options_.max_time;
+              return !out_of_time_ && (!progress || progress(now));
+          }),
           light_(*enclosure_, {.emitters = options.direct_light == DirectLightMode::closed_form}),
           mesh_(*enclosure_),
           direct_(*enclosure_, mesh_, light_) {
@@ -130,7 +161,7 @@ class Loop {
     Importance::Scale scale_;
     std::vector<PassReport> passes_;
     double squared_error_ = 0.0;
-    bool stopped_ = false, limited_ = false;
+    bool stopped_ = false, limited_ = false, out_of_time_ = false;
     double cpu_ = 0.0, wall_ = 0.0;
     std::size_t rays_ = 0;
 };
@@ -293,7 +324,12 @@ Report Loop::finish(const CoarseSolution& coarse) {
     report.energy_balance = power.energy_balance;
     report.direct_power_check = power.direct_power_check;
     report.warnings = enclosure_->warnings;
-    if (limited_)
+    warn_of_thick_zones(*enclosure_, coarse, report);
+    if (out_of_time_)
+        report.warnings.push_back(
+            fmt::format("refinement ended at max_time = {} s; the estimated error is {:.3g}.",
+                        options_.max_time, report.estimated_error));
+    if (limited_ && report.estimated_error > options_.error)
         report.warnings.push_back(
             fmt::format("refinement ended at a limit (max_elements = {}, max_memory = {} bytes) "
                         "before the error "
@@ -310,6 +346,15 @@ Report Loop::finish(const CoarseSolution& coarse) {
 
 Solution solve_adaptively(std::shared_ptr<const Enclosure> enclosure, const SolveOptions& options,
                           const std::optional<View>& view, const ProgressCallback& progress) {
+    if (options.exchange != "walked")
+        throw mesh::InputError(fmt::format("there is no exchange method \"{}\". Choose \"walked\".",
+                                           options.exchange));
+    if (options.solver != "gmres")
+        throw mesh::InputError(
+            fmt::format("there is no solver \"{}\". Choose \"gmres\".", options.solver));
+    std::optional<tbb::global_control> threads;
+    if (options.threads > 0)
+        threads.emplace(tbb::global_control::max_allowed_parallelism, options.threads);
     return Loop(std::move(enclosure), options, view, progress).run();
 }
 

@@ -22,7 +22,7 @@ struct ExchangeOptions {
     std::size_t band = 0;    // whose extinction to use
     std::size_t rays = 256;  // a row
     std::uint64_t seed = 1;
-    ProgressCallback progress;
+    ProgressCallback progress{};
     std::atomic<std::size_t>* lost_rays =
         nullptr;  // counts rays that hit the walk's step cap: bugs
 };

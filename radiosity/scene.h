@@ -20,71 +20,71 @@ using Spectrum = std::vector<double>;
 enum class EmittingSides { front, both };
 
 struct Material {
-    std::string name;
-    Spectrum reflectance;  // Lambertian, 0 to 1 [-]
-    Spectrum emission;     // radiance I_e; empty: none [W/m^2/sr]
-    Spectrum power;        // instead of emission: of the whole surface; empty: none [W]
+    std::string name{};
+    Spectrum reflectance{};  // Lambertian, 0 to 1 [-]
+    Spectrum emission{};     // radiance I_e; empty: none [W/m^2/sr]
+    Spectrum power{};        // instead of emission: of the whole surface; empty: none [W]
     EmittingSides emits = EmittingSides::front;
-    std::optional<std::size_t> back;  // index of the material of the back side; none: the same
-    std::string where;                // file:line:column, for messages
+    std::optional<std::size_t> back{};  // index of the material of the back side; none: the same
+    std::string where{};                // file:line:column, for messages
 };
 
 struct Surface {
-    std::string name;                     // "room.floor"
-    std::vector<mesh::Polygon> polygons;  // [m]
-    std::optional<std::size_t> material;  // index; none: an interface, light passes
-    std::string where;
+    std::string name{};                     // "room.floor"
+    std::vector<mesh::Polygon> polygons{};  // [m]
+    std::optional<std::size_t> material{};  // index; none: an interface, light passes
+    std::string where{};
 };
 
 struct Medium {
-    std::string name;
-    Spectrum extinction;  // kappa_t [1/m]
-    Spectrum albedo;      // Omega = kappa_s / kappa_t, 0 to 1 [-]
+    std::string name{};
+    Spectrum extinction{};  // kappa_t [1/m]
+    Spectrum albedo{};      // Omega = kappa_s / kappa_t, 0 to 1 [-]
     double asymmetry =
         0.0;  // g of Henyey–Greenstein, −1 < g < 1; the solve uses reduced coefficients [-]
-    Spectrum emission;  // J_e; empty: none [W/m^2/sr]
-    Spectrum heat;      // instead: source Q, 0 is radiative equilibrium; empty: none [W/m^3]
-    std::optional<Point>
-        at;  // fills the region around this point; none: every region that is not solid
-    std::string where;
+    Spectrum emission{};  // J_e; empty: none [W/m^2/sr]
+    Spectrum heat{};      // instead: source Q, 0 is radiative equilibrium; empty: none [W/m^3]
+    // Fills the region around this point; none: every region that is not solid [m].
+    std::optional<Point> at{};
+    std::string where{};
 };
 
 // A parallel beam, or a disc at infinity of constant radiance.
 struct Sun {
-    Direction direction;  // in which the light travels
-    Spectrum irradiance;  // across the beam [W/m^2]
-    double angle = 0.0;   // angular diameter [rad]
+    Direction direction{};  // in which the light travels
+    Spectrum irradiance{};  // across the beam [W/m^2]
+    double angle = 0.0;     // angular diameter [rad]
 };
 
 struct PointLight {
-    Point position;      // [m]
-    Spectrum intensity;  // [W/sr]
+    Point position{};      // [m]
+    Spectrum intensity{};  // [W/sr]
 };
 
 struct SpotLight {
-    Point position;       // [m]
-    Direction direction;  // axis of the cone
-    Spectrum intensity;   // inside the cone [W/sr]
-    double angle = 0.0;   // full opening angle [rad]
+    Point position{};       // [m]
+    Direction direction{};  // axis of the cone
+    Spectrum intensity{};   // inside the cone [W/sr]
+    double angle = 0.0;     // full opening angle [rad]
     double soft_edge =
         0.0;  // the intensity falls smoothly to 0 over this angle outside the cone [rad]
 };
 
 struct Light {
-    std::string name;
-    std::variant<Sun, PointLight, SpotLight> source;
-    std::string where;
+    std::string name{};
+    std::variant<Sun, PointLight, SpotLight> source{};
+    std::string where{};
 };
 
 struct Scene {
-    std::string title;
+    std::string title{};
     std::size_t bands = 1;
-    std::vector<Material> materials;
-    std::vector<Surface> surfaces;
-    std::vector<Medium> media;
-    std::vector<Light> lights;
-    Spectrum environment;           // radiance that comes in from outside; empty: 0 [W/m^2/sr]
-    std::vector<Point> viewpoints;  // cameras' eyes: a region that holds one is not solid [m]
+    std::vector<Material> materials{};
+    std::vector<Surface> surfaces{};
+    std::vector<Medium> media{};
+    std::vector<Light> lights{};
+    Spectrum environment{};           // radiance that comes in from outside; empty: 0 [W/m^2/sr]
+    std::vector<Point> viewpoints{};  // cameras' eyes: a region that holds one is not solid [m]
 };
 
 }  // namespace tyndall::radiosity

@@ -1,11 +1,13 @@
 #include "render/line_of_sight.h"
 
 #include <fmt/format.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <optional>
 
 #include "mesh/input_error.h"
 #include "radiosity/direct_light.h"
@@ -197,8 +199,13 @@ Image line_of_sight(const radiosity::Solution& solution, const Camera& camera,
             camera.name, camera.eye.x, camera.eye.y, camera.eye.z));
     Image image = blank(camera, bands);
     const LineOfSight line(solution, options.direct_tolerance * typical_radiance(solution));
-    const auto grid = static_cast<std::size_t>(std::ceil(std::sqrt(double(options.samples))));
-    const double share = 1.0 / static_cast<double>(grid * grid);
+    // A scrambled (0,2)-net in every pixel: stratified in x and in y, so that edges along the axes
+    // are as smooth as slanted ones.
+    const radiosity::PointSet points(std::max<std::size_t>(options.samples, 1));
+    const double share = 1.0 / static_cast<double>(points.size());
+    std::optional<tbb::global_control> threads;
+    if (options.threads > 0)
+        threads.emplace(tbb::global_control::max_allowed_parallelism, options.threads);
     std::atomic<std::size_t> rows_done = 0;
     std::atomic<bool> stop = false;
 
@@ -210,13 +217,10 @@ Image line_of_sight(const radiosity::Solution& solution, const Camera& camera,
             const std::size_t pixel = y * camera.width + x;
             sum.assign((parts + 1) * bands, 0.0);
             double depth = std::numeric_limits<double>::infinity();
-            for (std::size_t k = 0; k < grid * grid; ++k) {
-                // Jitter inside each cell of the grid turns what aliasing is left into noise.
-                const auto h = radiosity::hash_seed(options.seed + pixel, k);
-                const double u = (double(k % grid) + 0x1p-32 * double(h >> 32)) / double(grid);
-                const double v =
-                    (double(k / grid) + 0x1p-32 * double(h & 0xffffffffu)) / double(grid);
-                mesh::Ray ray = camera.ray(double(x) + u, double(y) + v);
+            const auto seed = radiosity::hash_seed(options.seed, pixel);
+            for (std::size_t k = 0; k < points.size(); ++k) {
+                const auto u = points(k, seed);
+                mesh::Ray ray = camera.ray(double(x) + u[0], double(y) + u[1]);
                 const Entry entry = entry_of(enclosure.mesh, ray, eye);
                 if (!entry.tet.valid() || enclosure.solid(entry.tet)) {
                     for (std::size_t b = 0; b < bands; ++b) {

@@ -14,7 +14,7 @@ namespace tyndall::render {
 //   multiple_scattering and transmittance (of the medium in front of what is seen), depth [m]
 //   (infinity: nothing hit).
 // Equation: I = Σ_segments T ∫ κ e^{−κs} J ds + T I_surface, J and I linear in each leaf. (4)
-// Anti-aliased: `samples` rays a pixel on a jittered grid, box filter of one pixel.
+// Anti-aliased: `samples` rays a pixel, a scrambled (0,2)-net, box filter of one pixel.
 // A camera outside the hull looks in through it. Radiances are never negative.
 // Errors: mesh::InputError for a camera inside a solid.
 // Cost: leaves crossed × pixels × samples. Same bits at any thread count.

@@ -10,7 +10,7 @@ namespace tyndall::render {
 
 struct RenderOptions {
     std::string method = "line_of_sight";
-    std::size_t samples = 16;  // rays a pixel, on a stratified grid
+    std::size_t samples = 16;  // rays a pixel, a scrambled (0,2)-net; a power of two is best
     // Direct light on a surface is computed anew in closed form at what a ray hits, wherever the
     // patch's own linear function may be off by more than this share of the surfaces' mean
     // radiance.
