@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 #include <optional>
 #include <set>
 
@@ -24,22 +25,60 @@ using namespace tetgen;
 struct Attempt {
     std::string switches;
     double cpu_seconds;
+    bool turned = false;  // the input (see Turn)
 };
 
 // From the best mesh to the surest. Mild quality first: bisection never mends slivers. Small
 // features and nearly coplanar facets would keep TetGen adding points for ever, so it may add only
 // some (-S), and not take long; it counts its own seconds, for the result should not depend on what
-// else runs. Then without merging facets on the same polygons (-M), then without quality, then
-// facets left unsplit (-Y).
+// else runs. On symmetric input (a panel that floats in a room, all on round coordinates) an
+// assertion of TetGen may fail: next the same, turned out of the axes. Then without merging facets
+// on the same polygons (-M), then without quality, then facets left unsplit (-Y).
 std::vector<Attempt> attempts(std::size_t facets) {
     const auto points = 500 + facets / 2;
     const double seconds = 6.0 + 1e-3 * static_cast<double>(facets);
-    return {{fmt::format("pq2.0S{}Q", points), seconds},
+    const auto quality = fmt::format("pq2.0S{}Q", points);
+    return {{quality, seconds},
+            {quality, seconds, true},
             {fmt::format("pq2.0MS{}Q", points), seconds},
             {"pQ", 3.0 * seconds},
             {"pMQ", 3.0 * seconds},
+            {"pQ", 3.0 * seconds, true},
             {"pYMQ", 1e9}};
 }
+
+// A rotation about the hull's middle by an angle and an axis that no scene has by design.
+class Turn {
+  public:
+    explicit Turn(const Hull& hull) : centre_(0.5 * (hull.min + hull.max)) {
+        const auto axis = glm::normalize(glm::dvec3(0.36, 0.71, 0.53));
+        const auto u = glm::normalize(glm::cross(axis, glm::dvec3(1, 0, 0)));
+        const auto v = glm::cross(axis, u);
+        constexpr double angle = 0.6180339887;
+        const glm::dmat3 frame(axis, u, v);
+        const glm::dmat3 about_first(1, 0, 0, 0, std::cos(angle), std::sin(angle), 0,
+                                     -std::sin(angle), std::cos(angle));
+        matrix_ = frame * about_first * glm::transpose(frame);
+    }
+
+    Input apply(Input input) const {
+        for (Point& p : input.points) p = centre_ + matrix_ * (p - centre_);
+        return input;
+    }
+    // TetGen gives the input's points first, in order: they get their own coordinates to the last
+    // bit.
+    void undo(Output& output, const Input& input) const {
+        const auto back = glm::transpose(matrix_);
+        for (std::size_t k = 0; k < output.points.size(); ++k)
+            output.points[k] = k < input.points.size()
+                                   ? input.points[k]
+                                   : centre_ + back * (output.points[k] - centre_);
+    }
+
+  private:
+    Point centre_;
+    glm::dmat3 matrix_;
+};
 
 void check(const ConformingComplex& complex, const TetrahedralizeOptions& options) {
     if (complex.facets.empty()) {
@@ -124,15 +163,17 @@ class Mesher {
           worker_(find_worker(options.worker)),
           hull_(hull_around(complex, options.hull_margin)),
           groups_(complex),
-          input_(input_of(complex, groups_, hull_)) {}
+          input_(input_of(complex, groups_, hull_)),
+          turn_(hull_) {}
 
     // Nothing, and one more failure noted, if this attempt came to no mesh.
     std::optional<BaseMesh> attempt(const Attempt& attempt) {
         if (!failures_.empty() && remaining() <= 0.0) {
             return {};
         }
-        const auto result = run(worker_, attempt.switches, input_,
-                                {remaining(), attempt.cpu_seconds, options_.max_bytes});
+        auto result = run(worker_, attempt.switches, attempt.turned ? turn_.apply(input_) : input_,
+                          {remaining(), attempt.cpu_seconds, options_.max_bytes});
+        if (attempt.turned && result.outcome == Outcome::done) turn_.undo(result.output, input_);
         if (result.outcome != Outcome::done) {
             failures_.push_back({result.outcome, result.message, {}});
             return {};
@@ -210,6 +251,7 @@ class Mesher {
     Hull hull_;
     FacetGroups groups_;
     Input input_;
+    Turn turn_;
     std::vector<Failure> failures_;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };

@@ -183,6 +183,17 @@ TEST_CASE("a room split in two by a partition has three regions", "[tetrahedrali
     CHECK(mesh_and_check(scene).region_count == 3);
 }
 
+TEST_CASE("a panel that floats in a room on round coordinates, alone and twice",
+          "[tetrahedralize]") {
+    // TetGen 1.5.0 fails an assertion on this one, whatever the switches, until it is turned.
+    Polygons scene;
+    add_room(scene, {0, 0, 0}, {4, 3, 3}, "room");
+    scene.push_back(sheet({1, 1, 1}, {1, 0, 0}, {0, 1, 0}, "panel"));
+    CHECK(mesh_and_check(scene).region_count == 2);
+    scene.push_back(sheet({1, 1, 1}, {1, 0, 0}, {0, 1, 0}, "panel again"));
+    CHECK(mesh_and_check(scene).region_count == 2);
+}
+
 TEST_CASE("a sphere of 5 k triangles in a room, whole and through its walls", "[tetrahedralize]") {
     const double radius = GENERATE(1.0, 1.8);
     Polygons scene;
