@@ -268,11 +268,12 @@ TEST_CASE("three bands have a column and a channel each") {
 
 TEST_CASE("an interrupt leaves a solution that can be used") {
     const Workplace place;
-    // Enough to do for many seconds.
+    // Enough to do for many seconds. --foreground: one signal, to the program alone; two would end
+    // it.
     const auto outcome = place.run(
         "run box.toml -o out --set solve.error=1e-4 --set solve.max_elements=200000 "
         "--set solve.gather_rays=512",
-        "timeout --preserve-status -s INT 1");
+        "timeout --foreground --preserve-status -s INT 2");
     CHECK(outcome.code == 0);
     CHECK_THAT(outcome.out, Contains("stopped on request"));
     CHECK(!place.has("out/image.exr"));
