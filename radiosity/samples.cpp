@@ -85,8 +85,4 @@ std::size_t SampleSet::gather_at(const std::vector<SampleId>& ids, const GatherS
     return missing.size() * points.size();
 }
 
-void SampleSet::forget_gathered() {
-    gathered_.assign(gathered_.size(), false);
-}
-
 }  // namespace tyndall::radiosity

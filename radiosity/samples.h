@@ -31,7 +31,6 @@ class SampleSet {
     // walked.
     std::size_t gather_at(const std::vector<SampleId>& ids, const GatherScene& scene,
                           const PointSet& points, std::uint64_t seed);
-    void forget_gathered();
 
     double direct(SampleId id, std::size_t band) const { return direct_[id.value * bands_ + band]; }
     double indirect(SampleId id, std::size_t band) const {
