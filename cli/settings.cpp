@@ -11,7 +11,9 @@ namespace {
 
 constexpr std::array<std::string_view, 1> exchange_names{"walked"};
 constexpr std::array<std::string_view, 1> solver_names{"gmres"};
-constexpr std::array<std::string_view, 3> refinement_names{"none", "uniform", "adaptive"};
+constexpr std::array<std::string_view, 5> refinement_names{"none", "uniform", "adaptive", "view",
+                                                           "aligned"};
+constexpr std::array<std::string_view, 2> radiance_names{"constant", "linear"};
 constexpr std::array<std::string_view, 2> direct_light_names{"closed_form", "rows"};
 constexpr std::array<std::string_view, 1> render_method_names{"line_of_sight"};
 
@@ -45,8 +47,10 @@ constexpr Setting solve_settings[] = {
      [](T t, K k, Settings& s) { s.solve.error = t.number(k, {0.0, 1.0, true, true}); }},
     {{"camera", "name of a camera", "the first camera", "the camera whose picture matters; \"\" for a solution good everywhere"},
      [](T t, K k, Settings& s) { s.camera = t.text(k); }},
-    {{"refinement", "\"none\", \"uniform\" or \"adaptive\"", "\"adaptive\"", "the initial mesh; all down to element_size; where it is needed"},
+    {{"refinement", "\"none\", \"uniform\", \"adaptive\", \"view\" or \"aligned\"", "\"view\"", "the initial mesh; all down to element_size; where it is needed; where the picture needs it; along shadow boundaries too"},
      [](T t, K k, Settings& s) { s.solve.refinement = static_cast<radiosity::Refinement>(t.choice(k, refinement_names)); }},
+    {{"radiance", "\"constant\" or \"linear\"", "\"linear\"", "what an element holds: its mean, or a linear function with that mean"},
+     [](T t, K k, Settings& s) { s.solve.radiance = static_cast<radiosity::Radiance>(t.choice(k, radiance_names)); }},
     {{"direct_light", "\"closed_form\" or \"rows\"", "\"closed_form\"", "light straight from emitting surfaces: integrated over their visible part, or through the exchange areas"},
      [](T t, K k, Settings& s) { s.solve.direct_light = static_cast<radiosity::DirectLightMode>(t.choice(k, direct_light_names)); }},
     {{"element_size", "number [m]", "0", "longest edge of the initial elements; 0: chosen from the scene"},

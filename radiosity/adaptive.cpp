@@ -64,6 +64,7 @@ class Loop {
           light_(*enclosure_, {.emitters = options.direct_light == DirectLightMode::closed_form}),
           mesh_(*enclosure_),
           direct_(*enclosure_, mesh_, light_) {
+        if (options_.refinement < Refinement::view) view_.reset();
         begin_pass();
     }
 
@@ -77,7 +78,7 @@ class Loop {
         end_pass("coarse solution");
 
         const Importance importance(*enclosure_, mesh_.forest(), view_, scale_);
-        if (options_.refinement == Refinement::adaptive) {
+        if (adaptive()) {
             const auto result =
                 direct_.refine(importance, direct_share * goal(), limits(0.8), progress_);
             note(result);
@@ -87,8 +88,7 @@ class Loop {
         }
         IndirectRefiner indirect(*enclosure_, mesh_, coarse.elements(), options_.gather_rays,
                                  options_.seed);
-        const double indirect_goal =
-            options_.refinement == Refinement::adaptive ? indirect_share * goal() : 1e300;
+        const double indirect_goal = adaptive() ? indirect_share * goal() : 1e300;
         const auto result = indirect.refine(coarse_sources(coarse), gather_detail(), importance,
                                             indirect_goal, limits(1.0), progress_);
         note(result);
@@ -102,6 +102,7 @@ class Loop {
     }
 
   private:
+    bool adaptive() const { return options_.refinement >= Refinement::adaptive; }
     double goal() const { return options_.error * options_.error; }
     // `share` of the elements allowed: what direct light may not use is left for indirect light.
     RefineLimits limits(double share) const {
@@ -267,6 +268,7 @@ Fields Loop::coarse_sources(const CoarseSolution& coarse) {
         if (forest.is_leaf(z)) fill(z, element_above(z, e.of_zone));
     for (const PatchId p : mesh_.patches())
         if (forest.is_leaf(p)) fill(p, element_above(p, e.of_patch));
+    if (options_.radiance == Radiance::constant) flatten(forest, sources);
     coarsen(forest, sources);
     return sources;
 }
@@ -297,6 +299,10 @@ Solution Loop::collect(const CoarseSolution& coarse, IndirectRefiner& indirect) 
         if (forest.is_leaf(z)) fill(z, solution.zone_error[z.value]);
     for (const PatchId p : mesh_.patches())
         if (forest.is_leaf(p)) fill(p, solution.patch_error[p.value]);
+    if (options_.radiance == Radiance::constant) {
+        flatten(forest, solution.direct);
+        flatten(forest, solution.indirect);
+    }
     solution.forest = forest;
     solution.coarse = coarse.values(incident_direct_);
     return solution;

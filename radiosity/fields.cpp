@@ -48,6 +48,16 @@ void extend(const Forest& forest, Fields& fields) {
     }
 }
 
+void flatten(const Forest& forest, Fields& fields) {
+    const auto to_constant = [&](auto node) {
+        if (!forest.is_leaf(node)) return;
+        for (std::size_t b = 0; b < fields.bands; ++b)
+            fields.at(node, b) = {Direction(0.0), fields.at(node, b).at(forest.centroid(node))};
+    };
+    for (std::size_t z = 0; z < forest.zone_count(); ++z) to_constant(ZoneId(z));
+    for (std::size_t p = 0; p < forest.patch_count(); ++p) to_constant(PatchId(p));
+}
+
 void coarsen(const Forest& forest, Fields& fields) {
     // Children have higher indices than their parents: backwards is bottom-up.
     for (std::size_t z = forest.zone_count(); z-- > 0;) {

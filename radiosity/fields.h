@@ -45,6 +45,9 @@ struct Fields {
 // Gives nodes that are new in the forest the functions of their parents.
 void extend(const Forest& forest, Fields& fields);
 
+// Gives leaves their functions' values at their centroids, without gradient.
+void flatten(const Forest& forest, Fields& fields);
+
 // Gives inner zones the mean of their children, and the gradient that their means and gradients
 // say.
 void coarsen(const Forest& forest, Fields& fields);

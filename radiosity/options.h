@@ -21,13 +21,31 @@ enum class Refinement {
     none,      // the initial mesh
     uniform,   // every element down to `element_size`
     adaptive,  // where the recomputed radiance departs from what the element holds
+    view,      // so, weighed by what that does to the camera's picture, if there is a camera
+    aligned,   // so, and bisected along shadow boundaries that are sharper than the leaves
+};
+
+// The mesh that the coarse solution begins with.
+enum class Start {
+    single_zone,  // one zone a medium, the input surfaces as patches
+    base,         // the base tetrahedra and facets
+    uniform,      // base tetrahedra and facets bisected down to `element_size`
+    mesh,         // the user's own tetrahedra
+};
+
+// What an element holds.
+enum class Radiance {
+    constant,  // its mean
+    linear,    // a linear function with that mean
 };
 
 struct SolveOptions {
     double error = 0.01;  // goal: estimated relative error of the picture, or of the solution [-]
     std::string exchange = "walked";  // method for exchange areas
     std::string solver = "gmres";     // method for the linear system
-    Refinement refinement = Refinement::adaptive;
+    Start start = Start::base;
+    Refinement refinement = Refinement::view;
+    Radiance radiance = Radiance::linear;
     DirectLightMode direct_light = DirectLightMode::closed_form;
     double element_size =
         0.0;  // longest edge of the initial elements [m]; 0: chosen from the scene
@@ -36,8 +54,11 @@ struct SolveOptions {
     double max_time = 0.0;                // wall time; 0: no limit [s]
     std::size_t max_passes = 12;          // of refinement
     std::size_t rays = 256;               // walked from each element for its row
-    std::size_t gather_rays = 256;        // walked from each point of the last, fine gather
-    double solver_tolerance = 1e-6;       // relative residual [-]
+    double row_detail = 0.0;  // theta: rays deposit in ancestors of size ≤ theta t sqrt(4 pi /
+                              // rays); 0: in the elements alone [-]
+    std::size_t promotions = 0;      // times the fine mesh is promoted and solved anew
+    std::size_t gather_rays = 256;   // walked from each point of the last, fine gather
+    double solver_tolerance = 1e-6;  // relative residual [-]
     std::size_t solver_iterations = 200;
     std::uint64_t seed = 1;
     std::size_t threads = 0;  // 0: all
