@@ -15,13 +15,14 @@
 namespace tyndall::radiosity {
 namespace {
 
-// How the squared error goal is shared out; the rest is for the noise of rows and gathers.
-constexpr double direct_share = 0.5;
-constexpr double indirect_share = 0.5;
+// How the squared error goal is shared out. Errors of direct light have either sign from leaf to
+// leaf, those of indirect light are smooth and stay: they get less.
+constexpr double direct_share = 0.85;
+constexpr double indirect_share = 0.15;
 
 // A gather's zone may stand for its leaves when it is no longer than this many spacings of its
-// rays.
-constexpr double detail_factor = 1.0;
+// rays: measured, 1 and 4 give the same picture, 4 in half the time.
+constexpr double detail_factor = 4.0;
 
 // Constant J in an optically thick zone of the coarse solution overstates what passes through it: 5
 // % of the flux at 0.5 (docs/limits.md).
@@ -89,7 +90,11 @@ class Loop {
         IndirectRefiner indirect(*enclosure_, mesh_, coarse.elements(), options_.gather_rays,
                                  options_.seed);
         const double indirect_goal = adaptive() ? indirect_share * goal() : 1e300;
-        const auto result = indirect.refine(coarse_sources(coarse), gather_detail(), importance,
+        Fields lit_sources;
+        const Fields sources = coarse_sources(coarse, &lit_sources);
+        if (options_.radiance == Radiance::constant) flatten(mesh_.forest(), lit_sources);
+        const LitPatches lit(*enclosure_, mesh_.forest(), lit_sources);
+        const auto result = indirect.refine(sources, &lit, gather_detail(), importance,
                                             indirect_goal, limits(1.0), progress_);
         note(result);
         rays_ += result.rays;
@@ -117,7 +122,8 @@ class Loop {
     void make_initial_mesh();
     void solve(CoarseSolution& coarse);
     void rate(const CoarseSolution& coarse);
-    Fields coarse_sources(const CoarseSolution& coarse);
+    std::vector<Affine> linear_indirect(const CoarseSolution& coarse);
+    Fields coarse_sources(const CoarseSolution& coarse, Fields* lit = nullptr);
     Solution collect(const CoarseSolution& coarse, IndirectRefiner& indirect);
     Report finish(const CoarseSolution& coarse);
     template <class Node>
@@ -247,21 +253,68 @@ Affine Loop::direct_field(Node node, std::size_t band) {
     return interpolate(points, values);
 }
 
+// Indirect light of the coarse elements, linear between the means of those that meet at a corner,
+// each element's own mean kept ([element * bands + band]).
+std::vector<Affine> Loop::linear_indirect(const CoarseSolution& coarse) {
+    const Elements& e = coarse.elements();
+    const Forest& forest = mesh_.forest();
+    std::vector<double> sum, weight;
+    const auto each_corner = [&](auto&& visit) {
+        for (std::size_t i = 0; i < e.patches.size(); ++i)
+            visit(i, e.patches[i], mesh_.corners(e.patches[i]), forest.area(e.patches[i]));
+        for (std::size_t k = 0; k < e.zones.size(); ++k)
+            visit(e.patches.size() + k, e.zones[k], mesh_.corners(e.zones[k]),
+                  forest.volume(e.zones[k]));
+    };
+    each_corner([&](std::size_t i, auto, const auto& corners, double size) {
+        for (const SampleId id : corners) {
+            if (id.value >= weight.size()) {
+                weight.resize(mesh_.samples().size());
+                sum.resize(mesh_.samples().size() * e.bands);
+            }
+            weight[id.value] += size;
+            for (std::size_t b = 0; b < e.bands; ++b)
+                sum[id.value * e.bands + b] += size * coarse.indirect(i, b);
+        }
+    });
+    std::vector<Affine> result(e.size() * e.bands);
+    each_corner([&](std::size_t i, auto node, const auto& corners, double) {
+        std::array<Point, std::tuple_size_v<std::decay_t<decltype(corners)>>> points;
+        std::array<double, points.size()> values;
+        for (std::size_t b = 0; b < e.bands; ++b) {
+            for (std::size_t k = 0; k < corners.size(); ++k) {
+                points[k] = forest.point(forest[node].corners[k]);
+                values[k] = sum[corners[k].value * e.bands + b] / weight[corners[k].value];
+            }
+            result[i * e.bands + b] = with_mean(interpolate(points, values), forest.centroid(node),
+                                                coarse.indirect(i, b));
+        }
+    });
+    return result;
+}
+
 // r of the leaves as the coarse solution knows it: their own direct light with its mean kept, the
-// coarse element's indirect light.
-Fields Loop::coarse_sources(const CoarseSolution& coarse) {
+// coarse element's indirect light. With `lit`, what patches reflect of direct light goes there.
+Fields Loop::coarse_sources(const CoarseSolution& coarse, Fields* lit) {
     const Elements& e = coarse.elements();
     const Forest& forest = mesh_.forest();
     Fields sources;
     sources.resize(forest, e.bands);
+    if (lit) lit->resize(forest, e.bands);
+    const std::vector<Affine> indirect = linear_indirect(coarse);
     const auto fill = [&](auto node, std::uint32_t element) {
         for (std::size_t b = 0; b < e.bands; ++b) {
             const std::size_t k = element * e.bands + b;
-            const Affine f = direct_with_mean(node, b);
+            Affine f = direct_with_mean(node, b);
             const double a = e.scatter[k];
-            sources.at(node, b) = {a * f.gradient,
-                                   e.emission[k] - coarse.split_emission(element, b) +
-                                       a * (f.constant + coarse.indirect(element, b))};
+            if (lit && std::is_same_v<decltype(node), PatchId>) {
+                lit->at(node, b) = {a * f.gradient, a * f.constant};
+                f = {};
+            }
+            const Affine& g = indirect[k];
+            sources.at(node, b) = {
+                a * (f.gradient + g.gradient),
+                e.emission[k] - coarse.split_emission(element, b) + a * (f.constant + g.constant)};
         }
     };
     for (const ZoneId z : mesh_.zones())

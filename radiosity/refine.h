@@ -68,9 +68,11 @@ class IndirectRefiner {
     IndirectRefiner(const Enclosure& enclosure, ElementMesh& mesh, const Elements& coarse,
                     std::size_t rays, std::uint64_t seed);
 
-    // Gathers from `sources` (by value: new nodes take over their parents' functions on the way).
-    RefineResult refine(Fields sources, double detail, const Importance& importance, double goal,
-                        const RefineLimits& limits, const ProgressCallback& progress);
+    // Gathers from `sources` (by value: new nodes take over their parents' functions on the way)
+    // and, apart from them, from `lit`.
+    RefineResult refine(Fields sources, const LitPatches* lit, double detail,
+                        const Importance& importance, double goal, const RefineLimits& limits,
+                        const ProgressCallback& progress);
 
     // The linear function of a leaf: its own, or that of the settled element above it.
     Affine field(ZoneId zone, std::size_t band);
@@ -83,6 +85,11 @@ class IndirectRefiner {
     template <class Node>
     Node settled(Node node, const std::vector<bool>& flags) const;
     template <class Node>
+    auto quadratic(Node node, std::size_t band);
+    template <class Node>
+    Affine linear_part(Node leaf, std::size_t band);
+    void divide(const std::vector<PatchId>& patches);
+    template <class Node>
     void collect(const std::vector<Node>& frontier, std::vector<SampleId>& ids);
     // Error beyond the noise, and the edge where it is largest.
     template <class Node>
@@ -91,7 +98,8 @@ class IndirectRefiner {
     const Enclosure& enclosure_;
     ElementMesh& mesh_;
     const Elements& coarse_;
-    PointSet points_;
+    // Zones are seen many at a time, and need half the rays.
+    PointSet on_surfaces_, in_zones_;
     std::uint64_t seed_;
     std::vector<bool> zone_settled_, patch_settled_;  // by node
     std::vector<float> zone_error_, patch_error_;     // by node
