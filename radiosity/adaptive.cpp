@@ -11,6 +11,7 @@
 #include "radiosity/coarse_solution.h"
 #include "radiosity/refine.h"
 #include "radiosity/resources.h"
+#include "radiosity/start_elements.h"
 
 namespace tyndall::radiosity {
 namespace {
@@ -31,9 +32,11 @@ void warn_of_thick_zones(const Enclosure& enclosure, const CoarseSolution& coars
     const Elements& e = coarse.elements();
     double thickest = 0.0;
     std::uint32_t medium = 0;
-    for (const ZoneId zone : e.zones) {
-        const auto m = medium_of(enclosure, coarse.forest(), zone);
-        const double size = std::cbrt(coarse.forest().volume(zone));
+    for (std::size_t i = e.patches.size(); i < e.size(); ++i) {
+        const auto m = medium_of(enclosure, coarse.forest(), e.zone(i));
+        double volume = 0.0;
+        for (const auto member : e.members_of(i)) volume += coarse.forest().volume(ZoneId(member));
+        const double size = std::cbrt(volume);
         for (const double extinction : enclosure.media[m].extinction)
             if (extinction * size > thickest) {
                 thickest = extinction * size;
@@ -70,7 +73,9 @@ class Loop {
 
     Solution run() {
         make_initial_mesh();
-        CoarseSolution coarse(*enclosure_, mesh_.forest(), options_, progress_);
+        CoarseSolution coarse(*enclosure_, mesh_.forest(),
+                              start_elements(*enclosure_, mesh_.forest(), options_.start), options_,
+                              progress_);
         rays_ += coarse.rays();
         direct_.update();
         solve(coarse);
@@ -170,6 +175,7 @@ class Loop {
 void Loop::make_initial_mesh() {
     // Fine enough for smooth indirect light, coarse enough that rows cost about a second.
     ElementMesh::InitialSize size{0.0, 4000, 1500};
+    if (options_.start == Start::single_zone) return;
     if (options_.element_size > 0.0)
         size = {options_.element_size, options_.max_elements, options_.max_elements};
     else if (options_.refinement == Refinement::none)

@@ -16,10 +16,11 @@ bool same_extinction(const Enclosure& enclosure, std::size_t a, std::size_t b) {
 
 CoarseSolution::CoarseSolution(const Enclosure& enclosure, const Forest& forest,
                                const SolveOptions& options, const ProgressCallback& progress)
-    : enclosure_(enclosure),
-      forest_(forest),
-      options_(options),
-      elements_(elements_of_leaves(enclosure, forest)) {
+    : CoarseSolution(enclosure, forest, elements_of_leaves(enclosure, forest), options, progress) {}
+
+CoarseSolution::CoarseSolution(const Enclosure& enclosure, const Forest& forest, Elements elements,
+                               const SolveOptions& options, const ProgressCallback& progress)
+    : enclosure_(enclosure), forest_(forest), options_(options), elements_(std::move(elements)) {
     for (std::size_t band = 0; band < enclosure.bands; ++band) {
         std::size_t same = 0;
         while (same < band && !same_extinction(enclosure, same, band)) ++same;

@@ -13,6 +13,9 @@ class CoarseSolution {
     // The elements are the forest's leaves now; rows are made here, once a distinct extinction.
     CoarseSolution(const Enclosure& enclosure, const Forest& forest, const SolveOptions& options,
                    const ProgressCallback& progress);
+    // With elements of the caller's, clusters for instance.
+    CoarseSolution(const Enclosure& enclosure, const Forest& forest, Elements elements,
+                   const SolveOptions& options, const ProgressCallback& progress);
 
     const Elements& elements() const { return elements_; }
     const Forest& forest() const { return forest_; }

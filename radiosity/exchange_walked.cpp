@@ -53,11 +53,12 @@ class Walker {
         const std::size_t i = id.value;
         const std::uint64_t seed = hash_seed(options_.seed, i);
         for (std::size_t k = 0; k < points_.size(); ++k) {
-            const auto u = points_(k, seed);
+            auto u = points_(k, seed);
+            const std::uint32_t member = d_.elements.pick_member(i, u[0]);
             if (d_.elements.is_patch(i))
-                walk_from_patch(d_.elements.patches[i], u, accumulator);
+                walk_from_patch(PatchId(member), u, accumulator);
             else
-                walk_from_zone(d_.elements.zone(i), u, accumulator);
+                walk_from_zone(ZoneId(member), u, accumulator);
         }
         const double capacity = d_.elements.capacity[i * d_.elements.bands + options_.band];
         return accumulator.take(capacity / static_cast<double>(points_.size()));
@@ -99,8 +100,11 @@ class Walker {
             mesh::walk(d_.enclosure.mesh, ray, start, [&](TetId tet, double t_in, double t_out) {
                 const double extinction = d_.enclosure.extinction(tet, options_.band);
                 if (extinction == 0.0) return true;
-                return mesh::descend(d_.forest, mesh::root_zone(tet), ray, t_in, t_out,
-                                     mesh::at_leaves, [&](ZoneId zone, double s_in, double s_out) {
+                const auto at_element = [&](ZoneId zone, double) {
+                    return elements.of_zone[zone.value] != none;
+                };
+                return mesh::descend(d_.forest, mesh::root_zone(tet), ray, t_in, t_out, at_element,
+                                     [&](ZoneId zone, double s_in, double s_out) {
                                          // −expm1: the difference of two exponentials loses digits
                                          // when thin.
                                          const double share =
@@ -118,8 +122,9 @@ class Walker {
         const auto outside = static_cast<std::uint32_t>(d_.elements.outside());
         if (end.arrival == mesh::Arrival::lost && options_.lost_rays) ++*options_.lost_rays;
         if (end.arrival != mesh::Arrival::struck) return outside;
-        const PatchId leaf = d_.forest.leaf_at(mesh::root_patch(end.facet, end.side),
-                                               ray.origin + end.distance * ray.direction);
+        const PatchId root = mesh::root_patch(end.facet, end.side);
+        if (const auto element = d_.elements.of_patch[root.value]; element != none) return element;
+        const PatchId leaf = d_.forest.leaf_at(root, ray.origin + end.distance * ray.direction);
         return d_.elements.of_patch[leaf.value];
     }
 

@@ -78,8 +78,8 @@ RefineResult IndirectRefiner::refine(Fields sources, double detail, const Import
                                      const ProgressCallback& progress) {
     RefineResult result;
     const Forest& forest = mesh_.forest();
-    std::vector<ZoneId> zones = coarse_.zones, next_zones;
-    std::vector<PatchId> patches = coarse_.patches, next_patches;
+    std::vector<ZoneId> zones = coarse_.member_zones(), next_zones;
+    std::vector<PatchId> patches = coarse_.member_patches(), next_patches;
     double pieces = static_cast<double>(zones.size() + patches.size());
     while (!zones.empty() || !patches.empty()) {
         std::vector<SampleId> ids;
