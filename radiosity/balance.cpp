@@ -188,12 +188,9 @@ Balance balance(const Enclosure& enclosure, const CoarseSolution& coarse,
             brought[b] += pi * c * e.emission[k];
             received_direct[b] += pi * c * incident_direct[k];
             const ExchangeAreas& rows = coarse.areas(b);
-            const std::size_t last = rows.starts[i + 1];
-            if (last > rows.starts[i] && rows.columns[last - 1] == e.outside()) {
-                const double to_outside = pi * rows.values[last - 1];
-                outside[b] += to_outside * (r - enclosure.environment[b]);
-                brought[b] += to_outside * enclosure.environment[b];
-            }
+            const double escaping = pi * to_outside(rows, e, i);
+            outside[b] += escaping * (r - enclosure.environment[b]);
+            brought[b] += escaping * enclosure.environment[b];
         }
     }
     double imbalance = 0.0, total = 0.0, direct = 0.0, direct_total = 0.0;

@@ -33,6 +33,7 @@ CoarseSolution::CoarseSolution(const Enclosure& enclosure, const Forest& forest,
                                   {.band = band,
                                    .rays = options.rays,
                                    .seed = options.seed,
+                                   .detail = options.row_detail,
                                    .progress = progress,
                                    .lost_rays = &lost_rays_}));
         rays_ += elements_.size() * options.rays;
@@ -62,11 +63,9 @@ void CoarseSolution::solve(const std::vector<double>& incident_direct) {
         std::vector<double> from_outside(n, 0.0);
         for (std::size_t i = 0; i < n; ++i) {
             const double capacity = elements_.capacity[i * bands + b];
-            // Outside is the last column of a row, if it is there at all.
-            const std::size_t last = rows.starts[i + 1];
-            if (capacity > 0.0 && last > rows.starts[i] &&
-                rows.columns[last - 1] == elements_.outside())
-                from_outside[i] = rows.values[last - 1] / capacity * enclosure_.environment[b];
+            if (capacity > 0.0)
+                from_outside[i] =
+                    to_outside(rows, elements_, i) / capacity * enclosure_.environment[b];
             source[i] = elements_.emission[i * bands + b] - split_emission(i, b) +
                         elements_.scatter[i * bands + b] *
                             (incident_direct[i * bands + b] + from_outside[i]);
@@ -77,13 +76,11 @@ void CoarseSolution::solve(const std::vector<double>& incident_direct) {
         report_.iterations = std::max(report_.iterations, result.iterations);
         report_.residual = std::max(report_.residual, result.residual);
         report_.converged = report_.converged && result.converged;
+        const std::vector<double> received = multiply(rows, elements_, result.radiance);
         for (std::size_t i = 0; i < n; ++i) {
             const double capacity = elements_.capacity[i * bands + b];
-            double sum = 0.0;
-            for (std::size_t k = rows.starts[i]; k < rows.starts[i + 1]; ++k)
-                if (const auto j = rows.columns[k]; j != elements_.outside())
-                    sum += rows.values[k] * result.radiance[j];
-            indirect_[i * bands + b] = capacity > 0.0 ? sum / capacity + from_outside[i] : 0.0;
+            indirect_[i * bands + b] =
+                capacity > 0.0 ? received[i] / capacity + from_outside[i] : 0.0;
             reflected_[i * bands + b] = result.radiance[i];
         }
     }

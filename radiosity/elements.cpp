@@ -53,25 +53,43 @@ Elements without_elements(const Enclosure& enclosure, const Forest& forest) {
     return e;
 }
 
+// The leaves below a root, as they lie in its tree: neighbours there are neighbours in space.
+template <class Node, class Visit>
+void each_leaf(const Forest& forest, Node root, Visit&& visit) {
+    std::vector<Node> open{root};
+    while (!open.empty()) {
+        const Node node = open.back();
+        open.pop_back();
+        if (forest.is_leaf(node)) {
+            visit(node);
+            continue;
+        }
+        const Node first = forest[node].first_child;
+        open.push_back(Node(first.value + 1ull));
+        open.push_back(first);
+    }
+}
+
 }  // namespace
 
 Elements elements_of_leaves(const Enclosure& enclosure, const Forest& forest) {
     Elements e = without_elements(enclosure, forest);
-    for (std::size_t p = 0; p < forest.patch_count(); ++p) {
-        const PatchId patch(p);
-        if (!forest.is_leaf(patch)) continue;
-        const auto side = side_of(enclosure, forest, patch);
+    const OpticalTags tags(enclosure);
+    for (std::size_t p = 0; p < tags.facet_sides.size(); ++p) {
+        const auto side = tags.facet_sides[p];
         if (side == none) continue;
-        e.of_patch[p] = static_cast<std::uint32_t>(e.size());
-        append(e, enclosure.sides[side], patch, forest.area(patch));
+        each_leaf(forest, PatchId(p), [&](PatchId patch) {
+            e.of_patch[patch.value] = static_cast<std::uint32_t>(e.size());
+            append(e, enclosure.sides[side], patch, forest.area(patch));
+        });
     }
-    for (std::size_t z = 0; z < forest.zone_count(); ++z) {
-        const ZoneId zone(z);
-        if (!forest.is_leaf(zone)) continue;
-        const auto medium = medium_of(enclosure, forest, zone);
+    for (std::size_t t = 0; t < tags.tets.size(); ++t) {
+        const auto medium = tags.tets[t];
         if (medium == none) continue;
-        e.of_zone[z] = static_cast<std::uint32_t>(e.size());
-        append(e, enclosure.media[medium], zone, forest.volume(zone));
+        each_leaf(forest, ZoneId(t), [&](ZoneId zone) {
+            e.of_zone[zone.value] = static_cast<std::uint32_t>(e.size());
+            append(e, enclosure.media[medium], zone, forest.volume(zone));
+        });
     }
     return e;
 }

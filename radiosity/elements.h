@@ -58,7 +58,7 @@ struct Elements {
 };
 
 // The elements of the forest's leaves: every leaf on a side that light can reach, every leaf in a
-// medium.
+// medium; tree by tree, so that elements that follow each other are near each other.
 Elements elements_of_leaves(const Enclosure& enclosure, const Forest& forest);
 
 // One element a cluster: every cluster that has no parent (mesh::make_whole_clusters). Roots of the

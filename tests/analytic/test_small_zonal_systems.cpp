@@ -50,8 +50,9 @@ ExchangeAreas exact_rows(const Elements& e, const std::vector<std::uint32_t>& wa
             if (i == j && e.is_patch(i)) continue;
             const bool walls = e.is_patch(i) && e.is_patch(j);
             areas.columns.push_back(static_cast<std::uint32_t>(j));
-            areas.values.push_back(walls ? (wall[i] / 2 == wall[j] / 2 ? opposed : across)
-                                         : (i == j ? self : zone_wall));
+            const double area = walls ? (wall[i] / 2 == wall[j] / 2 ? opposed : across)
+                                      : (i == j ? self : zone_wall);
+            areas.values.push_back(static_cast<float>(area));
         }
         areas.starts.push_back(areas.columns.size());
     }
