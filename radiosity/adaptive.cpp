@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <tbb/global_control.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +12,7 @@
 #include "radiosity/coarse_solution.h"
 #include "radiosity/refine.h"
 #include "radiosity/resources.h"
+#include "radiosity/start_elements.h"
 
 namespace tyndall::radiosity {
 namespace {
@@ -32,9 +34,11 @@ void warn_of_thick_zones(const Enclosure& enclosure, const CoarseSolution& coars
     const Elements& e = coarse.elements();
     double thickest = 0.0;
     std::uint32_t medium = 0;
-    for (const ZoneId zone : e.zones) {
-        const auto m = medium_of(enclosure, coarse.forest(), zone);
-        const double size = std::cbrt(coarse.forest().volume(zone));
+    for (std::size_t i = e.patches.size(); i < e.size(); ++i) {
+        const auto m = medium_of(enclosure, coarse.forest(), e.zone(i));
+        double volume = 0.0;
+        for (const auto member : e.members_of(i)) volume += coarse.forest().volume(ZoneId(member));
+        const double size = std::cbrt(volume);
         for (const double extinction : enclosure.media[m].extinction)
             if (extinction * size > thickest) {
                 thickest = extinction * size;
@@ -71,7 +75,9 @@ class Loop {
 
     Solution run() {
         make_initial_mesh();
-        CoarseSolution coarse(*enclosure_, mesh_.forest(), options_, progress_);
+        CoarseSolution coarse(*enclosure_, mesh_.forest(),
+                              start_elements(*enclosure_, mesh_.forest(), options_.start), options_,
+                              progress_);
         rays_ += coarse.rays();
         direct_.update();
         solve(coarse);
@@ -84,21 +90,27 @@ class Loop {
                 direct_.refine(importance, direct_share * goal(), limits(0.8), progress_);
             note(result);
             squared_error_ = result.squared_error;
-            solve(coarse);
-            end_pass("direct light");
         }
+        const LitPatches lit = lit_patches();
+        solve(coarse, &lit);
+        end_pass("direct light");
         IndirectRefiner indirect(*enclosure_, mesh_, coarse.elements(), options_.gather_rays,
                                  options_.seed);
         const double indirect_goal = adaptive() ? indirect_share * goal() : 1e300;
-        Fields lit_sources;
-        const Fields sources = coarse_sources(coarse, &lit_sources);
-        if (options_.radiance == Radiance::constant) flatten(mesh_.forest(), lit_sources);
-        const LitPatches lit(*enclosure_, mesh_.forest(), lit_sources);
-        const auto result = indirect.refine(sources, &lit, gather_detail(), importance,
-                                            indirect_goal, limits(1.0), progress_);
-        note(result);
-        rays_ += result.rays;
-        squared_error_ += result.squared_error;
+        IndirectSources sources{coarse_sources(coarse, &lit), &lit, gather_detail()};
+        // Half for zones; patches get what they leave.
+        const auto zones =
+            indirect.refine_zones(sources, importance, 0.5 * indirect_goal, limits(1.0), progress_);
+        direct_.update();
+        update_zones(indirect, sources.fields);
+        const auto patches = indirect.refine_patches(
+            sources, importance, indirect_goal - std::min(zones.squared_error, 0.5 * indirect_goal),
+            limits(1.0), progress_);
+        for (const auto& result : {zones, patches}) {
+            note(result);
+            rays_ += result.rays;
+            squared_error_ += result.squared_error;
+        }
         direct_.update();
         Solution solution = collect(coarse, indirect);
         end_pass("indirect light");
@@ -120,10 +132,15 @@ class Loop {
     }
 
     void make_initial_mesh();
-    void solve(CoarseSolution& coarse);
+    void solve(CoarseSolution& coarse, const LitPatches* lit = nullptr);
+    LitPatches lit_patches();
+    std::vector<std::pair<Receiver, double>> quadrature(PatchId patch) const;
+    std::vector<std::pair<Receiver, double>> quadrature(ZoneId zone) const;
+    std::vector<double> incident_lit(const Elements& elements, const LitPatches& lit) const;
     void rate(const CoarseSolution& coarse);
     std::vector<Affine> linear_indirect(const CoarseSolution& coarse);
-    Fields coarse_sources(const CoarseSolution& coarse, Fields* lit = nullptr);
+    Fields coarse_sources(const CoarseSolution& coarse, const LitPatches* lit = nullptr);
+    void update_zones(IndirectRefiner& indirect, Fields& sources);
     Solution collect(const CoarseSolution& coarse, IndirectRefiner& indirect);
     Report finish(const CoarseSolution& coarse);
     template <class Node>
@@ -176,6 +193,7 @@ class Loop {
 void Loop::make_initial_mesh() {
     // Fine enough for smooth indirect light, coarse enough that rows cost about a second.
     ElementMesh::InitialSize size{0.0, 4000, 1500};
+    if (options_.start == Start::single_zone) return;
     if (options_.element_size > 0.0)
         size = {options_.element_size, options_.max_elements, options_.max_elements};
     else if (options_.refinement == Refinement::none)
@@ -183,8 +201,72 @@ void Loop::make_initial_mesh() {
     mesh_.refine_to(size);
 }
 
+// What patches reflect of direct light.
+LitPatches Loop::lit_patches() {
+    const Forest& forest = mesh_.forest();
+    Fields lit;
+    lit.resize(forest, enclosure_->bands);
+    for (const PatchId p : mesh_.patches())
+        for (std::size_t b = 0; forest.is_leaf(p) && b < lit.bands; ++b) {
+            const double a = enclosure_->sides[side_of(*enclosure_, forest, p)].reflectance[b];
+            const Affine f = direct_with_mean(p, b);
+            lit.at(p, b) = {a * f.gradient, a * f.constant};
+        }
+    if (options_.radiance == Radiance::constant) flatten(forest, lit);
+    return {*enclosure_, forest, lit};
+}
+
+// H from lit patches, the mean over each element ([element * bands + band]).
+std::vector<double> Loop::incident_lit(const Elements& e, const LitPatches& lit) const {
+    std::vector<double> incident(e.size() * e.bands, 0.0);
+    tbb::parallel_for(std::size_t(0), e.size(), [&](std::size_t i) {
+        const std::span<double> sum(incident.data() + i * e.bands, e.bands);
+        std::vector<double> here(e.bands);
+        double measure = 0.0;
+        for (const std::uint32_t member : e.members_of(i)) {
+            const auto points =
+                e.is_patch(i) ? quadrature(PatchId(member)) : quadrature(ZoneId(member));
+            for (const auto& [receiver, size] : points) {
+                std::fill(here.begin(), here.end(), 0.0);
+                lit.gather(receiver, here);
+                measure += size;
+                for (std::size_t b = 0; b < e.bands; ++b) sum[b] += size * here[b];
+            }
+        }
+        for (double& value : sum) value /= measure;
+    });
+    return incident;
+}
+
+// Points of degree 2 on an element, each with its part of the area or volume.
+std::vector<std::pair<Receiver, double>> Loop::quadrature(PatchId patch) const {
+    const Forest& forest = mesh_.forest();
+    const auto side = forest.base_facet_side(patch);
+    std::vector<std::pair<Receiver, double>> points;
+    for (const VertexId corner : forest[patch].corners)
+        points.push_back(
+            {{0.5 * (forest.point(corner) + forest.centroid(patch)),
+              enclosure_->mesh.facets[side / 2].tets[side % 2], normal_of(forest, patch), true},
+             forest.area(patch) / 3.0});
+    return points;
+}
+
+std::vector<std::pair<Receiver, double>> Loop::quadrature(ZoneId zone) const {
+    const Forest& forest = mesh_.forest();
+    constexpr double towards_corner = 0.4472135954999579;  // 1/√5
+    std::vector<std::pair<Receiver, double>> points;
+    for (const VertexId corner : forest[zone].corners) {
+        const Point centre = forest.centroid(zone);
+        points.push_back(
+            {{centre + towards_corner * (forest.point(corner) - centre), forest.base_tet(zone)},
+             forest.volume(zone) / 4.0});
+    }
+    return points;
+}
+
 // Direct light of the leaves summed into the coarse elements above them, then the linear system.
-void Loop::solve(CoarseSolution& coarse) {
+// With `lit`, what patches reflect of it is not left to the rows.
+void Loop::solve(CoarseSolution& coarse, const LitPatches* lit) {
     const std::size_t bands = enclosure_->bands;
     const Elements& e = coarse.elements();
     incident_direct_.assign(e.size() * bands, 0.0);
@@ -202,7 +284,10 @@ void Loop::solve(CoarseSolution& coarse) {
     for (std::size_t i = 0; i < e.size(); ++i)
         for (std::size_t b = 0; b < bands; ++b)
             if (measure[i] > 0.0) incident_direct_[i * bands + b] /= measure[i];
-    coarse.solve(incident_direct_);
+    if (lit)
+        coarse.solve(incident_direct_, incident_lit(e, *lit));
+    else
+        coarse.solve(incident_direct_);
 }
 
 // The picture's mean radiance and the solution's mean square, against which errors are measured.
@@ -259,6 +344,10 @@ std::vector<Affine> Loop::linear_indirect(const CoarseSolution& coarse) {
     const Elements& e = coarse.elements();
     const Forest& forest = mesh_.forest();
     std::vector<double> sum, weight;
+    std::vector<Affine> result(e.size() * e.bands);
+    for (std::size_t k = 0; k < result.size(); ++k)
+        result[k].constant = coarse.indirect(k / e.bands, k % e.bands);
+    if (!e.member_starts.empty()) return result;  // clusters have no corners
     const auto each_corner = [&](auto&& visit) {
         for (std::size_t i = 0; i < e.patches.size(); ++i)
             visit(i, e.patches[i], mesh_.corners(e.patches[i]), forest.area(e.patches[i]));
@@ -277,7 +366,6 @@ std::vector<Affine> Loop::linear_indirect(const CoarseSolution& coarse) {
                 sum[id.value * e.bands + b] += size * coarse.indirect(i, b);
         }
     });
-    std::vector<Affine> result(e.size() * e.bands);
     each_corner([&](std::size_t i, auto node, const auto& corners, double) {
         std::array<Point, std::tuple_size_v<std::decay_t<decltype(corners)>>> points;
         std::array<double, points.size()> values;
@@ -294,23 +382,20 @@ std::vector<Affine> Loop::linear_indirect(const CoarseSolution& coarse) {
 }
 
 // r of the leaves as the coarse solution knows it: their own direct light with its mean kept, the
-// coarse element's indirect light. With `lit`, what patches reflect of direct light goes there.
-Fields Loop::coarse_sources(const CoarseSolution& coarse, Fields* lit) {
+// coarse element's indirect light. With `lit`, without what patches reflect of direct light: it is
+// looked at apart.
+Fields Loop::coarse_sources(const CoarseSolution& coarse, const LitPatches* lit) {
     const Elements& e = coarse.elements();
     const Forest& forest = mesh_.forest();
     Fields sources;
     sources.resize(forest, e.bands);
-    if (lit) lit->resize(forest, e.bands);
     const std::vector<Affine> indirect = linear_indirect(coarse);
     const auto fill = [&](auto node, std::uint32_t element) {
         for (std::size_t b = 0; b < e.bands; ++b) {
             const std::size_t k = element * e.bands + b;
             Affine f = direct_with_mean(node, b);
             const double a = e.scatter[k];
-            if (lit && std::is_same_v<decltype(node), PatchId>) {
-                lit->at(node, b) = {a * f.gradient, a * f.constant};
-                f = {};
-            }
+            if (lit && std::is_same_v<decltype(node), PatchId>) f = {};
             const Affine& g = indirect[k];
             sources.at(node, b) = {
                 a * (f.gradient + g.gradient),
@@ -324,6 +409,23 @@ Fields Loop::coarse_sources(const CoarseSolution& coarse, Fields* lit) {
     if (options_.radiance == Radiance::constant) flatten(forest, sources);
     coarsen(forest, sources);
     return sources;
+}
+
+// Gives the zones of the sources what has been gathered there.
+void Loop::update_zones(IndirectRefiner& indirect, Fields& sources) {
+    const Forest& forest = mesh_.forest();
+    extend(forest, sources);
+    for (const ZoneId z : mesh_.zones()) {
+        if (!forest.is_leaf(z)) continue;
+        const MediumOptics& optics = enclosure_->media[medium_of(*enclosure_, forest, z)];
+        for (std::size_t b = 0; b < sources.bands; ++b) {
+            const Affine d = direct_with_mean(z, b), i = indirect.field(z, b);
+            sources.at(z, b) = {optics.albedo[b] * (d.gradient + i.gradient),
+                                optics.emission[b] + optics.albedo[b] * (d.constant + i.constant)};
+        }
+    }
+    if (options_.radiance == Radiance::constant) flatten(forest, sources);
+    coarsen(forest, sources);
 }
 
 Solution Loop::collect(const CoarseSolution& coarse, IndirectRefiner& indirect) {

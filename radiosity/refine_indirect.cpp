@@ -98,75 +98,73 @@ std::pair<double, std::array<int, 2>> IndirectRefiner::measure(Node node) {
             edge};
 }
 
-RefineResult IndirectRefiner::refine(Fields sources, const LitPatches* lit, double detail,
+double IndirectRefiner::scatter(ZoneId zone) const {
+    return mean_over_bands(enclosure_.media[medium_of(enclosure_, mesh_.forest(), zone)].albedo);
+}
+
+double IndirectRefiner::scatter(PatchId patch) const {
+    return mean_over_bands(
+        enclosure_.sides[side_of(enclosure_, mesh_.forest(), patch)].reflectance);
+}
+
+template <class Node>
+RefineResult IndirectRefiner::refine(std::vector<Node> frontier, IndirectSources sources,
                                      const Importance& importance, double goal,
                                      const RefineLimits& limits, const ProgressCallback& progress) {
     RefineResult result;
     const Forest& forest = mesh_.forest();
-    std::vector<ZoneId> zones = ancestors(forest, coarse_.zones), next_zones;
-    std::vector<PatchId> patches = coarse_.patches, next_patches, coarse_leaves;
-    double pieces = static_cast<double>(zones.size() + patches.size());
-    while (!zones.empty() || !patches.empty()) {
+    Settled& settled = settled_of(Node());
+    std::vector<Node> next, shown;
+    double pieces = static_cast<double>(frontier.size());
+    while (!frontier.empty()) {
         std::vector<SampleId> ids;
-        collect(zones, ids);
-        collect(patches, ids);
+        collect(frontier, ids);
+        const GatherScene scene(enclosure_, forest, sources.fields, sources.detail);
         result.rays +=
-            mesh_.samples().gather_at(ids, GatherScene(enclosure_, forest, sources, detail), lit,
-                                      on_surfaces_, in_zones_, seed_);
-        for (auto* flags : {&zone_settled_, &patch_settled_})
-            flags->resize(std::max(forest.zone_count(), forest.patch_count()));
-        for (auto* errors : {&zone_error_, &patch_error_})
-            errors->resize(std::max(forest.zone_count(), forest.patch_count()));
+            mesh_.samples().gather_at(ids, scene, sources.lit, on_surfaces_, in_zones_, seed_);
+        settled.resize(std::max(forest.zone_count(), forest.patch_count()));
         result.stopped =
-            progress &&
-            !progress({"indirect light", 1.0 - double(zones.size() + patches.size()) / pieces,
-                       mesh_.leaf_count(), 0.0});
+            progress && !progress({"indirect light", 1.0 - double(frontier.size()) / pieces,
+                                   mesh_.leaf_count(), 0.0});
         result.limited =
             mesh_.leaf_count() >= limits.max_elements || mesh_.memory() > limits.max_memory;
         const bool descend = !result.stopped && !result.limited;
         const double threshold = goal / pieces;
-        next_zones.clear();
-        next_patches.clear();
-        for (const ZoneId z : zones) {
-            const auto [error, edge] = measure(z);
-            const double a =
-                mean_over_bands(enclosure_.media[medium_of(enclosure_, forest, z)].albedo);
-            const double share = importance.of(z) * a * a * error * error;
-            if (!descend || share <= threshold || forest[z].longest_edge <= limits.smallest_edge) {
-                zone_settled_[z.value] = true;
-                zone_error_[z.value] = static_cast<float>(error);
-                result.squared_error += share;
+        next.clear();
+        for (const Node node : frontier) {
+            const auto [error, edge] = measure(node);
+            const double x = scatter(node) * error, share = importance.of(node) * x * x;
+            if (descend && share > threshold && forest[node].longest_edge > limits.smallest_edge) {
+                if (forest.is_leaf(node)) bisect(node, edge);
+                const Node first = forest[node].first_child;
+                next.insert(next.end(), {first, Node(first.value + 1ull)});
+                pieces += 1.0;
                 continue;
             }
-            if (forest.is_leaf(z)) mesh_.bisect(z, edge);
-            const ZoneId first = forest[z].first_child;
-            next_zones.insert(next_zones.end(), {first, ZoneId(first.value + 1ull)});
-            pieces += 1.0;
+            settled.flags[node.value] = true;
+            settled.errors[node.value] = static_cast<float>(error);
+            result.squared_error += share;
+            if (descend && share > remaining<Node> * remaining<Node> * threshold)
+                shown.push_back(node);
         }
-        for (const PatchId p : patches) {
-            const double error = measure(p).first;
-            const double a =
-                mean_over_bands(enclosure_.sides[side_of(enclosure_, forest, p)].reflectance);
-            const double share = importance.of(p) * a * a * error * error;
-            if (!descend || share <= threshold || forest[p].longest_edge <= limits.smallest_edge) {
-                patch_settled_[p.value] = true;
-                patch_error_[p.value] = static_cast<float>(error);
-                result.squared_error += share;
-                if (descend && share > remaining<PatchId> * remaining<PatchId> * threshold)
-                    coarse_leaves.push_back(p);
-                continue;
-            }
-            if (forest.is_leaf(p)) mesh_.bisect(p);
-            const PatchId first = forest[p].first_child;
-            next_patches.insert(next_patches.end(), {first, PatchId(first.value + 1ull)});
-            pieces += 1.0;
-        }
-        extend(forest, sources);
-        zones.swap(next_zones);
-        patches.swap(next_patches);
+        extend(forest, sources.fields);
+        frontier.swap(next);
     }
-    divide(coarse_leaves);
+    if constexpr (std::is_same_v<Node, PatchId>) divide(shown);
     return result;
+}
+
+RefineResult IndirectRefiner::refine_zones(IndirectSources sources, const Importance& importance,
+                                           double goal, const RefineLimits& limits,
+                                           const ProgressCallback& progress) {
+    return refine(ancestors(mesh_.forest(), coarse_.member_zones()), std::move(sources), importance,
+                  goal, limits, progress);
+}
+
+RefineResult IndirectRefiner::refine_patches(IndirectSources sources, const Importance& importance,
+                                             double goal, const RefineLimits& limits,
+                                             const ProgressCallback& progress) {
+    return refine(coarse_.member_patches(), std::move(sources), importance, goal, limits, progress);
 }
 
 // Patches are seen as they are: a quadratic that one leaf holds is given the leaves that show it.
@@ -181,7 +179,8 @@ void IndirectRefiner::divide(const std::vector<PatchId>& patches) {
 }
 
 template <class Node>
-Node IndirectRefiner::settled(Node node, const std::vector<bool>& flags) const {
+Node IndirectRefiner::settled_above(Node node) const {
+    const std::vector<bool>& flags = settled_of(node).flags;
     while (!(node.value < flags.size() && flags[node.value])) node = mesh_.forest()[node].parent;
     return node;
 }
@@ -205,7 +204,7 @@ template <class Node>
 Affine IndirectRefiner::linear_part(Node leaf, std::size_t band) {
     const Forest& forest = mesh_.forest();
     constexpr bool is_zone = std::is_same_v<Node, ZoneId>;
-    const Node node = settled(leaf, is_zone ? zone_settled_ : patch_settled_);
+    const Node node = settled_above(leaf);
     const auto q = quadratic(node, band);
     constexpr std::size_t count = std::tuple_size_v<decltype(q.points)>;
     std::array<Point, count> points;
@@ -232,7 +231,7 @@ Affine IndirectRefiner::field(PatchId patch, std::size_t band) {
     return linear_part(patch, band);
 }
 
-template ZoneId IndirectRefiner::settled(ZoneId, const std::vector<bool>&) const;
-template PatchId IndirectRefiner::settled(PatchId, const std::vector<bool>&) const;
+template ZoneId IndirectRefiner::settled_above(ZoneId) const;
+template PatchId IndirectRefiner::settled_above(PatchId) const;
 
 }  // namespace tyndall::radiosity

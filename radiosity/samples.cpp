@@ -2,6 +2,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include <cmath>
+
 namespace tyndall::radiosity {
 namespace {
 
@@ -13,6 +15,13 @@ std::size_t dimension(const mesh::Carrier& carrier) {
     std::size_t n = 0;
     while (n < 4 && carrier[n].valid()) ++n;
     return n - 1;
+}
+
+// The same for points on parallel planes that face the same way, to rounding.
+std::uint64_t plane_seed(std::uint64_t seed, Direction normal) {
+    for (int axis = 0; axis < 3; ++axis)
+        seed = hash_seed(seed, static_cast<std::uint64_t>(std::llround(1e3 * normal[axis])));
+    return seed;
 }
 
 }  // namespace
@@ -84,11 +93,11 @@ std::size_t SampleSet::gather_at(const std::vector<SampleId>& ids, const GatherS
         const std::size_t i = missing[k].value;
         const GatherPoint& point = points_[i];
         const std::span<Gathered> out(indirect_.data() + i * bands_, bands_);
-        // Surfaces are seen as they are: neighbours share their directions, so that noise is
+        // A surface is seen as it is: on one plane all share their directions, so that noise is
         // smooth. Zones are seen many at a time: theirs are independent, so that noise averages
         // out.
         if (point.on_surface())
-            gather(scene, lit, point, on_surfaces, seed, out);
+            gather(scene, lit, point, on_surfaces, plane_seed(seed, point.normal), out);
         else
             gather(scene, lit, point, in_zones, hash_seed(seed, i), out);
     });
