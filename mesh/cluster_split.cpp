@@ -53,12 +53,17 @@ struct Hull {
 
 // A wall as a set meets it.
 struct Wall {
-    FacetId facet;
     Direction normal;
     double offset;  // of the plane dot(normal, x) = offset [m]
     double area;    // [m^2]
     Hull hull;
+    Direction outward;  // the normal towards its one side with items; 0 if both have, or none
 };
+
+// Around a curved convex body the hull of a set cuts off some of it, though the set lies on one
+// side of its surface. Its facets may enter by this share of the set's extent, if their normals
+// are within 60 degrees of each other: so a set wraps around no wall, however thin.
+constexpr double curve_depth = 0.25, curve_cosine = 0.5;
 
 class Splitter {
   public:
@@ -70,9 +75,10 @@ class Splitter {
           tolerance_(1e-6 * glm::distance(mesh.hull_min, mesh.hull_max)) {
         for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
             if (mesh.facets[f].opacity != Opacity::opaque) continue;
-            Wall wall{FacetId(f), normal(mesh, FacetId(f)), 0.0, area(mesh, FacetId(f)), {}};
+            Wall wall{normal(mesh, FacetId(f)), 0.0, area(mesh, FacetId(f)), {}, {}};
             for (const VertexId v : mesh.facets[f].corners) wall.hull.add(mesh.points[v.value]);
             wall.offset = glm::dot(wall.normal, mesh.points[mesh.facets[f].corners[0].value]);
+            wall.outward = outward(mesh.facets[f], wall.normal);
             walls_.push_back(wall);
         }
         std::stable_sort(walls_.begin(), walls_.end(),
@@ -95,6 +101,15 @@ class Splitter {
     }
 
   private:
+    Direction outward(const BaseFacet& facet, Direction normal) const {
+        if (graph_.corners_per_item != 4) return Direction(0.0);
+        const auto has_items = [&](int side) {
+            return facet.tets[side].valid() && graph_.tags[facet.tets[side].value] != untagged;
+        };
+        if (has_items(0) == has_items(1)) return Direction(0.0);
+        return has_items(0) ? normal : -normal;
+    }
+
     // A set of members; `walls` may enter it.
     struct Set {
         std::size_t begin, end;
@@ -127,11 +142,9 @@ class Splitter {
         const Hull hull = hull_of(set);
         std::erase_if(set.walls,
                       [&](std::uint32_t w) { return raised_.apart(walls_[w].hull, tolerance_); });
-        const auto entering =
-            std::find_if(set.walls.begin(), set.walls.end(),
-                         [&](std::uint32_t w) { return enters(set, hull, walls_[w]); });
+        const Wall* wall = intruder(set, hull);
         std::size_t middle = set.begin;
-        if (entering == set.walls.end()) {
+        if (!wall) {
             const ClusterId id(tree_.clusters.size());
             tree_.clusters.push_back({static_cast<std::uint32_t>(set.begin),
                                       static_cast<std::uint32_t>(set.end), set.parent,
@@ -139,7 +152,7 @@ class Splitter {
             set.parent = id;
             set.walls.clear();
         } else {
-            middle = split_by(set, walls_[*entering]);
+            middle = split_by(set, *wall);
         }
         if (middle == set.begin || middle == set.end) middle = split_in_middle(set, hull);
         push({middle, set.end, set.parent, set.walls});
@@ -163,8 +176,9 @@ class Splitter {
         return hull;
     }
 
-    // Whether a wall that meets the hull has members on both sides of its plane.
-    bool enters(const Set& set, const Hull& hull, const Wall& wall) {
+    // How deep a wall that meets the hull enters: how far the members reach on that side of its
+    // plane on which they reach less far [m].
+    double depth(const Set& set, const Hull& hull, const Wall& wall) {
         double low = -wall.offset, high = -wall.offset;  // of the members' box above the plane [m]
         for (int axis = 0; axis < 3; ++axis) {
             const double a = wall.normal[axis] * hull.low[axis_normals[axis]];
@@ -172,16 +186,30 @@ class Splitter {
             low += std::min(a, b);
             high += std::max(a, b);
         }
-        if (low >= -tolerance_ || high <= tolerance_) return false;
-        bool below = false, above = false;
+        if (low >= -tolerance_ || high <= tolerance_) return 0.0;
+        double below = 0.0, above = 0.0;
         for (const auto item : items(set))
             for (const VertexId v : graph_.corners_of(item)) {
                 const double at = glm::dot(wall.normal, mesh_.points[v.value]) - wall.offset;
-                below = below || at < -tolerance_;
-                above = above || at > tolerance_;
-                if (below && above) return true;
+                below = std::max(below, -at);
+                above = std::max(above, at);
             }
-        return false;
+        return std::min(below, above);
+    }
+
+    // The first wall that a set may not keep; none if it may be a cluster.
+    const Wall* intruder(const Set& set, const Hull& hull) {
+        const Wall* curved = nullptr;
+        for (const auto w : set.walls) {
+            const Wall& wall = walls_[w];
+            const double by = depth(set, hull, wall);
+            if (by <= tolerance_) continue;
+            const bool shallow = wall.outward != Direction(0.0) && by < curve_depth * hull.extent();
+            if (!shallow || (curved && glm::dot(wall.outward, curved->outward) < curve_cosine))
+                return &wall;
+            if (!curved) curved = &wall;
+        }
+        return nullptr;
     }
 
     std::size_t split_by(const Set& set, const Wall& wall) {

@@ -52,7 +52,8 @@ struct ClusterTags {
 //   A patch cluster: coplanar facet sides of one tag and one part, connected through edges, and no
 //     other opaque facet enters its hull, or stands on it.
 // The hull is the members' bounding polytope with 26 faces: it is larger than the convex hull, so
-// that some clusters are refused that need not be, above all around curved convex surfaces.
+// that some clusters are refused that need not be. Facets of a curved convex body may enter it a
+// little if a zone cluster lies on one side of them, with normals within 60 degrees of each other.
 // Method: from the top. A set that a facet enters is split by the plane of the largest such facet,
 //   else in the middle of its longest side; then into its connected pieces.
 // Cost: O(n log n) and, at every level, the facets that touch a set's hull.
