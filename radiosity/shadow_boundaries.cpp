@@ -13,11 +13,13 @@ namespace {
 // Of the mesh's diagonal: points nearer to a plane are on it.
 constexpr double on_plane = 1e-10;
 // Of an element's reach from a sharp plane: corners nearer count as on it, or slivers come up.
-constexpr double snapped = 0.01;
+constexpr double snapped = 0.003;
 // Of a penumbra's width: H is continuous there, and what is snapped shows as that much of its rise.
 constexpr double snapped_in_penumbra = 0.002;
 // Seen from an edge, lights narrower than this have no extent, wider ones no sharp shadow [rad].
 constexpr double narrow = 1e-7, wide = 0.5;
+// Pairs of sheets and base tets beyond which no more sheets are followed.
+constexpr std::size_t most_pairs = 50'000'000;
 
 }  // namespace
 
@@ -35,6 +37,7 @@ struct ShadowBoundaries::Source {
 };
 
 struct ShadowBoundaries::Edge {
+    std::array<mesh::VertexId, 2> ends;
     Point a, b;
     std::vector<Point> apexes;  // the third corners of the opaque facets on it
 };
@@ -76,6 +79,9 @@ std::vector<ShadowBoundaries::Source> ShadowBoundaries::sources(const Enclosure&
 
 ShadowBoundaries::ShadowBoundaries(const Enclosure& enclosure, bool emitters)
     : tolerance_(on_plane * glm::distance(enclosure.mesh.hull_min, enclosure.mesh.hull_max)) {
+    // An odd point, which few planes of one scene are at one distance from.
+    origin_ = enclosure.mesh.hull_min +
+              Point(0.3717, 0.6143, 0.2311) * (enclosure.mesh.hull_max - enclosure.mesh.hull_min);
     const auto& mesh = enclosure.mesh;
     std::map<std::pair<mesh::VertexId, mesh::VertexId>, std::vector<Point>> edges;
     const auto active = [&](TetId tet) { return tet.valid() && !enclosure.solid(tet); };
@@ -89,23 +95,72 @@ ShadowBoundaries::ShadowBoundaries(const Enclosure& enclosure, bool emitters)
     }
     for (const Source& source : sources(enclosure, emitters))
         for (const auto& [ends, apexes] : edges)
-            add_sheets({mesh.points[ends.first.value], mesh.points[ends.second.value], apexes},
+            add_sheets({{ends.first, ends.second},
+                        mesh.points[ends.first.value],
+                        mesh.points[ends.second.value],
+                        apexes},
                        source);
+    spread(mesh);
+}
+
+// From the tets around a sheet's edge on from tet to tet, up to what is opaque.
+void ShadowBoundaries::spread(const mesh::BaseMesh& mesh) {
+    std::vector<std::vector<std::uint32_t>> at_vertex(mesh.points.size()), found(mesh.tets.size());
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t)
+        for (const auto corner : mesh.tets[t])
+            at_vertex[corner.value].push_back(static_cast<std::uint32_t>(t));
+    std::size_t pairs = 0;
+    std::vector<std::uint32_t> reached;
+    std::vector<std::uint32_t> seen(mesh.tets.size(), none);  // by the sheet of that index
+    for (std::uint32_t k = 0; k < sheets_.size() && pairs < most_pairs; ++k) {
+        const auto try_tet = [&](std::uint32_t t) {
+            if (seen[t] == k) return;
+            seen[t] = k;
+            std::array<Point, 4> corners;
+            for (int c = 0; c < 4; ++c) corners[c] = mesh.points[mesh.tets[t][c].value];
+            if (section(sheets_[k], corners)) reached.push_back(t);
+        };
+        reached.clear();
+        const auto [a, b] = sheets_[k].edge;
+        for (const std::uint32_t t : at_vertex[a.value])
+            if (std::find(mesh.tets[t].begin(), mesh.tets[t].end(), b) != mesh.tets[t].end())
+                try_tet(t);
+        for (std::size_t n = 0; n < reached.size(); ++n) {
+            const std::uint32_t t = reached[n];
+            for (int face = 0; face < 4; ++face) {
+                const auto facet = mesh.tet_facets[t][face];
+                if (facet.valid() && mesh.facets[facet.value].opacity == mesh::Opacity::opaque)
+                    continue;
+                if (const TetId next = mesh.neighbours[t][face]; next.valid()) try_tet(next.value);
+            }
+        }
+        for (const std::uint32_t t : reached) found[t].push_back(k);
+        pairs += reached.size();
+    }
+    begin_.push_back(0);
+    for (const auto& list : found) {
+        touching_.insert(touching_.end(), list.begin(), list.end());
+        begin_.push_back(touching_.size());
+    }
 }
 
 // Equal planes get one index, so that an element is cut along them once.
 std::uint32_t ShadowBoundaries::index_of(ShadowPlane& plane) {
-    for (std::size_t k = 0; k < planes_.size(); ++k) {
-        const double cosine = glm::dot(plane.normal, planes_[k].normal);
-        if (std::abs(cosine) < 1.0 - 1e-12) continue;
-        if (std::abs(plane.offset - std::copysign(planes_[k].offset, cosine * planes_[k].offset)) >
-            tolerance_)
-            continue;
-        plane = planes_[k];
-        return static_cast<std::uint32_t>(k);
+    const double distance = std::abs(plane.at(origin_));
+    for (auto near = plane_order_.lower_bound(distance - tolerance_);
+         near != plane_order_.end() && near->first <= distance + tolerance_; ++near) {
+        const ShadowPlane& other = planes_[near->second];
+        const double cosine = glm::dot(plane.normal, other.normal);
+        const double side = std::copysign(1.0, cosine);
+        if (std::abs(cosine) < 1.0 - 1e-14) continue;
+        if (std::abs(plane.offset - side * other.offset) > tolerance_) continue;
+        plane = other;
+        return near->second;
     }
+    const auto index = static_cast<std::uint32_t>(planes_.size());
     planes_.push_back(plane);
-    return static_cast<std::uint32_t>(planes_.size() - 1);
+    plane_order_.emplace(distance, index);
+    return index;
 }
 
 void ShadowBoundaries::add_sheets(const Edge& edge, const Source& source) {
@@ -134,6 +189,7 @@ void ShadowBoundaries::add_sheets(const Edge& edge, const Source& source) {
     for (const double angle : sharp ? std::vector{0.5 * (low + high)} : std::vector{low, high}) {
         const Direction to_light = std::cos(angle) * u + std::sin(angle) * v;
         ShadowSheet sheet;
+        sheet.edge = edge.ends;
         sheet.plane.normal = glm::cross(along, to_light);
         sheet.plane.offset = -glm::dot(sheet.plane.normal, edge.a);
         // A silhouette: something opaque on the one side, nothing on the other.

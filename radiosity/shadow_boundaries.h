@@ -8,14 +8,16 @@
 //   the plane behind the edge, between the rays through its two ends.
 // Not valid for: planes through an emitter's edge and an occluder's corner (they round the corners
 //   of penumbrae off), curved event surfaces, the rim of a spot light's cone. What other occluders
-//   hide of a sheet is not cut off: whether light changes across it is for the caller to find out.
-// Cost: O(edges × lights); a question O(sheets).
+//   hide of a sheet is not cut off, but where they seal it off: whether light changes across it is
+//   for the caller to find out.
+// Cost: O(edges × lights + tets that sheets touch).
 // Source: Nishita & Nakamae (1985); Campbell & Fussell (1990); Teller (1992), Computing the
 //   antipenumbra of an area light source.
 #pragma once
 
 #include <array>
 #include <glm/geometric.hpp>
+#include <map>
 #include <span>
 #include <vector>
 
@@ -35,6 +37,7 @@ struct ShadowSheet {
     ShadowPlane plane;
     std::uint32_t plane_index = 0;  // sheets on one plane share it
     std::array<mesh::HalfSpace, 3> bounds;
+    std::array<mesh::VertexId, 2> edge;  // of the base mesh, behind which it lies
     // The sheet on the penumbra's other side; `none`: the shadow's edge is sharp.
     std::uint32_t partner = none;
 };
@@ -57,6 +60,11 @@ class ShadowBoundaries {
     const std::vector<ShadowSheet>& sheets() const { return sheets_; }
     std::size_t plane_count() const { return planes_.size(); }
     const ShadowPlane& plane(std::uint32_t index) const { return planes_[index]; }
+    // The sheets that touch a base tet and can be reached there from their edge without passing
+    // anything opaque.
+    std::span<const std::uint32_t> at(TetId tet) const {
+        return {touching_.data() + begin_[tet.value], begin_[tet.value + 1] - begin_[tet.value]};
+    }
 
     // Width of the penumbra at a point of a sheet; 0 if the edge is sharp [m].
     double width(const ShadowSheet& sheet, Point x) const;
@@ -76,10 +84,15 @@ class ShadowBoundaries {
     std::vector<Source> sources(const Enclosure& enclosure, bool emitters) const;
     void add_sheets(const Edge& edge, const Source& source);
     std::uint32_t index_of(ShadowPlane& plane);
+    void spread(const mesh::BaseMesh& mesh);
 
     std::vector<ShadowSheet> sheets_;
     std::vector<ShadowPlane> planes_;
-    double tolerance_;  // [m]
+    std::multimap<double, std::uint32_t> plane_order_;  // by the distance of `origin_`
+    Point origin_{0.0};
+    double tolerance_;                // [m]
+    std::vector<std::size_t> begin_;  // of each base tet in touching_
+    std::vector<std::uint32_t> touching_;
 };
 
 }  // namespace tyndall::radiosity

@@ -91,8 +91,8 @@ ShadowCuts::ShadowCuts(const Enclosure& enclosure, const ShadowBoundaries& bound
                        ElementMesh& mesh, const DirectLight& light)
     : enclosure_(enclosure), boundaries_(boundaries), mesh_(mesh), light_(light) {}
 
-// Sheets at a node are among those at the nearest node above that has been looked at, or, at a
-// root, among all.
+// Sheets at a node are among those at the nearest node above that has been looked at, or those at
+// the base tet.
 template <class Node>
 void ShadowCuts::find_sheets(Node node, std::vector<Known>& known) const {
     const Forest& forest = mesh_.forest();
@@ -107,7 +107,7 @@ void ShadowCuts::find_sheets(Node node, std::vector<Known>& known) const {
     if (above.valid())
         for (const std::uint32_t k : known[above.value].sheets) test(k);
     else
-        for (std::uint32_t k = 0; k < sheets.size(); ++k) test(k);
+        for (const std::uint32_t k : boundaries_.at(tet_of(node))) test(k);
     known[node.value].sheets = std::move(found);
     known[node.value].looked_at = true;
 }
@@ -132,15 +132,21 @@ void ShadowCuts::mark_corners(Node node, const std::vector<std::uint32_t>& sheet
     }
 }
 
+TetId ShadowCuts::tet_of(ZoneId zone) const {
+    return mesh_.forest().base_tet(zone);
+}
+
+TetId ShadowCuts::tet_of(PatchId patch) const {
+    const auto side = mesh_.forest().base_facet_side(patch);
+    return enclosure_.mesh.facets[side / 2].tets[side % 2];
+}
+
 void ShadowCuts::incident(ZoneId zone, Point x, std::vector<double>& value) const {
-    light_.at_zone(x, mesh_.forest().base_tet(zone), value);
+    light_.at_zone(x, tet_of(zone), value);
 }
 
 void ShadowCuts::incident(PatchId patch, Point x, std::vector<double>& value) const {
-    const Forest& forest = mesh_.forest();
-    const auto side = forest.base_facet_side(patch);
-    light_.at_patch(x, normal_of(forest, patch), enclosure_.mesh.facets[side / 2].tets[side % 2],
-                    value);
+    light_.at_patch(x, normal_of(mesh_.forest(), patch), tet_of(patch), value);
 }
 
 // Root of the mean square of what direct light changes by across a sheet.
@@ -217,23 +223,9 @@ ShadowCuts::Cut ShadowCuts::measure(Node node, const std::vector<std::uint32_t>&
 }
 
 template <class Node>
-void ShadowCuts::look(const std::vector<Node>& nodes, std::size_t roots,
-                      std::vector<Known>& known) {
-    const Forest& forest = mesh_.forest();
-    std::vector<Node> first;  // roots above that have not been looked at
-    for (Node node : nodes) {
-        while (forest[node].parent.valid()) node = forest[node].parent;
-        if (node.value < roots && !known[node.value].looked_at) {
-            known[node.value].looked_at = true;
-            first.push_back(node);
-        }
-    }
-    const auto find = [&](const std::vector<Node>& list) {
-        tbb::parallel_for(std::size_t(0), list.size(),
-                          [&](std::size_t k) { find_sheets(list[k], known); });
-    };
-    find(first);
-    find(nodes);
+void ShadowCuts::look(const std::vector<Node>& nodes, std::vector<Known>& known) {
+    tbb::parallel_for(std::size_t(0), nodes.size(),
+                      [&](std::size_t k) { find_sheets(nodes[k], known); });
     for (const Node node : nodes) mark_corners(node, known[node.value].sheets);
     tbb::parallel_for(std::size_t(0), nodes.size(), [&](std::size_t k) {
         Known& node = known[nodes[k].value];
@@ -244,8 +236,8 @@ void ShadowCuts::look(const std::vector<Node>& nodes, std::size_t roots,
 void ShadowCuts::update(const std::vector<ZoneId>& zones, const std::vector<PatchId>& patches) {
     zones_.resize(mesh_.forest().zone_count());
     patches_.resize(mesh_.forest().patch_count());
-    look(zones, enclosure_.mesh.tets.size(), zones_);
-    look(patches, 2 * enclosure_.mesh.facets.size(), patches_);
+    look(zones, zones_);
+    look(patches, patches_);
 }
 
 // Bisects where the plane crosses the longest edge that it crosses, and so on below.

@@ -40,7 +40,7 @@ class ShadowCuts {
         Cut cut;
     };
     template <class Node>
-    void look(const std::vector<Node>& nodes, std::size_t roots, std::vector<Known>& known);
+    void look(const std::vector<Node>& nodes, std::vector<Known>& known);
     template <class Node>
     void find_sheets(Node node, std::vector<Known>& known) const;
     template <class Node>
@@ -53,6 +53,8 @@ class ShadowCuts {
     void cut_along(Node node, const ShadowSheet& sheet, double reach, std::size_t max_leaves);
     template <class Node>
     bool cut_leaf(Node node, const Cut& cut, std::size_t max_leaves);
+    TetId tet_of(ZoneId zone) const;
+    TetId tet_of(PatchId patch) const;
     void incident(ZoneId zone, Point x, std::vector<double>& value) const;
     void incident(PatchId patch, Point x, std::vector<double>& value) const;
 
