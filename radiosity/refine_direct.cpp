@@ -200,7 +200,8 @@ RefineResult DirectRefiner::refine(const Importance& importance, double goal,
             return result;
         }
         if (result.squared_error <= goal) return result;
-        if (mesh_.leaf_count() >= limits.max_elements || mesh_.memory() > limits.max_memory) {
+        const std::size_t memory = mesh_.memory() + (cuts_ ? cuts_->memory() : 0);
+        if (mesh_.leaf_count() >= limits.max_elements || memory > limits.max_memory) {
             result.limited = true;
             return result;
         }

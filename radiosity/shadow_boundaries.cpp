@@ -163,73 +163,89 @@ std::uint32_t ShadowBoundaries::index_of(ShadowPlane& plane) {
     return index;
 }
 
+// Where a light is as seen from an edge: angles around it, from the middle of the light.
+struct ShadowBoundaries::Fan {
+    Direction along{0.0}, u{0.0}, v{0.0};
+    Point start{0.0};  // on the edge
+    double low = 1e300, high = -1e300;
+
+    Fan(const Edge& edge, const Source& source)
+        : along((edge.b - edge.a) / glm::distance(edge.a, edge.b)), start(edge.a) {
+        for (const Point& light : source.points) u += across(source, light);
+        if (glm::dot(u, u) > 0.0) u = glm::normalize(u);
+        v = glm::cross(along, u);
+        for (const Point& light : source.points) {
+            low = std::min(low, angle(source, light));
+            high = std::max(high, angle(source, light));
+        }
+    }
+    // Towards a point of the light, square to the edge.
+    Direction across(const Source& source, Point light) const {
+        const Direction d = source.from(start, light);
+        return d - glm::dot(d, along) * along;
+    }
+    double angle(const Source& source, Point light) const {
+        const Direction d = across(source, light);
+        return std::atan2(glm::dot(v, d), glm::dot(u, d));
+    }
+    Direction to_light(double angle) const { return std::cos(angle) * u + std::sin(angle) * v; }
+};
+
+// The sheet at an angle of the fan: its plane, and the rays through its ends, the widest of those
+// from the points of the light that the plane touches.
+ShadowSheet ShadowBoundaries::sheet_at(double angle, const Fan& fan, const Edge& edge,
+                                       const Source& source) const {
+    ShadowSheet sheet;
+    sheet.edge = edge.ends;
+    const Direction to_light = fan.to_light(angle);
+    sheet.plane.normal = glm::cross(fan.along, to_light);
+    sheet.plane.offset = -glm::dot(sheet.plane.normal, edge.a);
+    sheet.bounds[0] = {-to_light, -glm::dot(to_light, edge.a)};
+    for (int end = 0; end < 2; ++end) {
+        const Point corner = end == 0 ? edge.a : edge.b;
+        const Direction inward = end == 0 ? fan.along : -fan.along;
+        double widest = 1e300;
+        for (const Point& light : source.points) {
+            if (std::abs(fan.angle(source, light) - angle) > narrow) continue;
+            const Direction ray = -glm::normalize(source.from(corner, light));
+            const double lean = glm::dot(ray, inward);
+            if (lean >= widest) continue;
+            widest = lean;
+            Direction normal = inward - lean * ray;  // square to the ray in the plane
+            normal -= glm::dot(normal, sheet.plane.normal) * sheet.plane.normal;
+            normal = glm::normalize(normal);
+            sheet.bounds[1 + end] = {normal, glm::dot(normal, corner)};
+        }
+    }
+    return sheet;
+}
+
 void ShadowBoundaries::add_sheets(const Edge& edge, const Source& source) {
     if (!source.shines_at(edge.a, tolerance_) && !source.shines_at(edge.b, tolerance_)) return;
-    const double length = glm::distance(edge.a, edge.b);
-    const Direction along = (edge.b - edge.a) / length;
-    const auto across = [&](Point light) {  // towards the light, square to the edge
-        const Direction d = source.from(edge.a, light);
-        return d - glm::dot(d, along) * along;
-    };
-    Direction u(0.0);
-    for (const Point& light : source.points) u += across(light);
-    u = glm::normalize(u);
-    const Direction v = glm::cross(along, u);
-    double low = 1e300, high = -1e300;
-    for (const Point& light : source.points) {
-        const Direction d = across(light);
-        if (!(glm::length(d) > tolerance_)) return;  // the edge points to the light, or bounds it
-        const double angle = std::atan2(glm::dot(v, d), glm::dot(u, d));
-        low = std::min(low, angle);
-        high = std::max(high, angle);
-    }
-    if (!(high - low < wide)) return;
-    const bool sharp = high - low < narrow;
-    std::vector<std::uint32_t> made;
-    for (const double angle : sharp ? std::vector{0.5 * (low + high)} : std::vector{low, high}) {
-        const Direction to_light = std::cos(angle) * u + std::sin(angle) * v;
-        ShadowSheet sheet;
-        sheet.edge = edge.ends;
-        sheet.plane.normal = glm::cross(along, to_light);
-        sheet.plane.offset = -glm::dot(sheet.plane.normal, edge.a);
-        // A silhouette: something opaque on the one side, nothing on the other.
+    const Fan fan(edge, source);
+    for (const Point& light : source.points)  // the edge points to the light, or bounds it
+        if (!(glm::length(fan.across(source, light)) > tolerance_)) return;
+    if (!(fan.high - fan.low < wide)) return;
+    const bool sharp = fan.high - fan.low < narrow;
+    std::vector<ShadowSheet> made;
+    for (const double angle :
+         sharp ? std::vector{0.5 * (fan.low + fan.high)} : std::vector{fan.low, fan.high}) {
+        const ShadowSheet sheet = sheet_at(angle, fan, edge, source);
+        // A silhouette: something opaque on the one side, nothing on the other. A penumbra is one
+        // from both its ends.
         bool front = false, back = false;
         for (const Point& apex : edge.apexes) {
             front |= sheet.plane.at(apex) > tolerance_;
             back |= sheet.plane.at(apex) < -tolerance_;
         }
-        if (front == back && sharp) return;
-        // The rays through the ends, the widest of those from the points that the plane touches.
-        sheet.bounds[0] = {-to_light, -glm::dot(to_light, edge.a)};
-        for (int end = 0; end < 2; ++end) {
-            const Point corner = end == 0 ? edge.a : edge.b;
-            const Direction inward = end == 0 ? along : -along;
-            double widest = 1e300;
-            for (const Point& light : source.points) {
-                const Direction d = across(light);
-                if (!sharp && std::abs(std::atan2(glm::dot(v, d), glm::dot(u, d)) - angle) > narrow)
-                    continue;
-                const Direction ray = -glm::normalize(source.from(corner, light));
-                const double lean = glm::dot(ray, inward);
-                if (lean >= widest) continue;
-                widest = lean;
-                Direction normal = inward - lean * ray;  // square to the ray in the plane
-                normal -= glm::dot(normal, sheet.plane.normal) * sheet.plane.normal;
-                sheet.bounds[1 + end] = {glm::normalize(normal), 0.0};
-                sheet.bounds[1 + end].offset = glm::dot(sheet.bounds[1 + end].normal, corner);
-            }
-        }
-        if (front == back) continue;
-        sheet.plane_index = index_of(sheet.plane);
-        made.push_back(static_cast<std::uint32_t>(sheets_.size()));
-        sheets_.push_back(sheet);
+        if (front == back) return;
+        made.push_back(sheet);
     }
-    if (sharp) return;
-    if (made.size() == 2) {
-        sheets_[made[0]].partner = made[1];
-        sheets_[made[1]].partner = made[0];
-    } else if (made.size() == 1) {
-        sheets_.pop_back();  // seen edge-on by a part of the light only: no clean penumbra
+    const auto first = static_cast<std::uint32_t>(sheets_.size());
+    for (std::uint32_t k = 0; k < made.size(); ++k) {
+        made[k].plane_index = index_of(made[k].plane);
+        if (!sharp) made[k].partner = first + 1 - k;
+        sheets_.push_back(made[k]);
     }
 }
 

@@ -81,7 +81,10 @@ class ShadowBoundaries {
   private:
     struct Source;
     struct Edge;
+    struct Fan;
     std::vector<Source> sources(const Enclosure& enclosure, bool emitters) const;
+    ShadowSheet sheet_at(double angle, const Fan& fan, const Edge& edge,
+                         const Source& source) const;
     void add_sheets(const Edge& edge, const Source& source);
     std::uint32_t index_of(ShadowPlane& plane);
     void spread(const mesh::BaseMesh& mesh);

@@ -240,6 +240,15 @@ void ShadowCuts::update(const std::vector<ZoneId>& zones, const std::vector<Patc
     look(patches, patches_);
 }
 
+std::size_t ShadowCuts::memory() const {
+    std::size_t sum = 0;
+    for (const auto* known : {&zones_, &patches_}) {
+        sum += known->capacity() * sizeof(Known);
+        for (const Known& node : *known) sum += node.sheets.capacity() * sizeof(std::uint32_t);
+    }
+    return sum;
+}
+
 // Bisects where the plane crosses the longest edge that it crosses, and so on below.
 template <class Node>
 void ShadowCuts::cut_along(Node node, const ShadowSheet& sheet, double reach,

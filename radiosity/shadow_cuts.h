@@ -28,6 +28,8 @@ class ShadowCuts {
     bool cut(ZoneId zone, std::size_t max_leaves);
     bool cut(PatchId patch, std::size_t max_leaves);
 
+    std::size_t memory() const;  // [byte]
+
   private:
     struct Cut {
         float error = 0.0f;
