@@ -28,8 +28,8 @@ inline render::Layer marched_picture(const radiosity::Enclosure& enclosure,
     render::Layer layer{"direct_single", 1, std::vector<float>(camera.width * camera.height)};
     const auto look = [&](const mesh::Ray& ray) {
         double radiance = 0.0, transmittance = 1.0, h = 0.0;
-        const auto end = mesh::walk(
-            enclosure.mesh, ray, {eye}, [&](mesh::TetId tet, double t_in, double t_out) {
+        const auto end =
+            mesh::walk(enclosure.mesh, ray, {eye}, [&](mesh::TetId tet, double t_in, double t_out) {
                 const auto medium = enclosure.medium_of(tet);
                 if (medium == radiosity::none || enclosure.solid(tet)) return true;
                 const auto& optics = enclosure.media[medium];
