@@ -54,6 +54,12 @@ void warn_of_thick_zones(const Enclosure& enclosure, const CoarseSolution& coars
                                             enclosure.media[medium].extinction.end())));
 }
 
+std::optional<ShadowBoundaries> shadow_boundaries(const Enclosure& enclosure,
+                                                  const SolveOptions& options) {
+    if (options.refinement != Refinement::aligned) return {};
+    return ShadowBoundaries(enclosure, options.direct_light == DirectLightMode::closed_form);
+}
+
 // The loop's state, step by step; each step leaves something that a valid solution can be made of.
 class Loop {
   public:
@@ -68,7 +74,8 @@ class Loop {
           }),
           light_(*enclosure_, {.emitters = options.direct_light == DirectLightMode::closed_form}),
           mesh_(*enclosure_),
-          direct_(*enclosure_, mesh_, light_) {
+          boundaries_(shadow_boundaries(*enclosure_, options)),
+          direct_(*enclosure_, mesh_, light_, boundaries_ ? &*boundaries_ : nullptr) {
         if (options_.refinement < Refinement::view) view_.reset();
         begin_pass();
     }
@@ -180,6 +187,7 @@ class Loop {
     ProgressCallback progress_;
     DirectLight light_;
     ElementMesh mesh_;
+    std::optional<ShadowBoundaries> boundaries_;  // along which elements are cut
     DirectRefiner direct_;
     std::vector<double> incident_direct_;  // of the coarse elements
     Importance::Scale scale_;
@@ -328,7 +336,7 @@ void Loop::rate(const CoarseSolution& coarse) {
 template <class Node>
 Affine Loop::direct_field(Node node, std::size_t band) {
     const Forest& forest = mesh_.forest();
-    const auto samples = mesh_.corners(node);
+    const auto samples = mesh_.lit_corners(node);
     std::array<Point, std::tuple_size_v<decltype(samples)>> points;
     std::array<double, std::tuple_size_v<decltype(samples)>> values;
     for (std::size_t k = 0; k < samples.size(); ++k) {

@@ -4,6 +4,7 @@
 #include "radiosity/element_mesh.h"
 #include "radiosity/importance.h"
 #include "radiosity/progress.h"
+#include "radiosity/shadow_cuts.h"
 
 namespace tyndall::radiosity {
 
@@ -28,7 +29,9 @@ struct RefineResult {
 // are computed anew, not interpolated.
 class DirectRefiner {
   public:
-    DirectRefiner(const Enclosure& enclosure, ElementMesh& mesh, const DirectLight& light);
+    // `boundaries`: of shadows, along which elements are cut; null: none.
+    DirectRefiner(const Enclosure& enclosure, ElementMesh& mesh, const DirectLight& light,
+                  const ShadowBoundaries* boundaries = nullptr);
 
     // Evaluates what is new in the mesh.
     void update();
@@ -45,13 +48,23 @@ class DirectRefiner {
     double error(PatchId patch) const { return patch_error_[patch.value]; }
 
   private:
+    struct Candidate {
+        double share;
+        std::uint32_t index;
+        bool is_zone;
+        bool to_cut;  // along a shadow's edge
+    };
     template <class Node>
     void measure(Node node, std::vector<float>& errors, std::vector<std::uint8_t>& edges,
                  const std::vector<double>& centroid);
+    double collect(const Importance& importance, const RefineLimits& limits,
+                   std::vector<Candidate>& candidates) const;
+    void bisect(const Candidate& candidate, std::size_t max_leaves);
 
     const Enclosure& enclosure_;
     ElementMesh& mesh_;
     const DirectLight& light_;
+    std::optional<ShadowCuts> cuts_;
     std::size_t bands_;
     std::size_t zones_done_ = 0, patches_done_ = 0;       // entries of the mesh's lists
     std::vector<float> zone_error_, patch_error_;         // by node

@@ -32,7 +32,7 @@ SampleSet::SampleSet(const Enclosure& enclosure, const Forest& forest)
 SampleId SampleSet::in_zone(VertexId vertex, TetId tet) {
     const auto& carrier = forest_.carrier(vertex);
     const TetId fan = fans_.of_tet(carrier, tet);
-    const auto [entry, made] = ids_.try_emplace({vertex, fan.value}, SampleId(points_.size()));
+    const auto [entry, made] = ids_.try_emplace({vertex, fan.value, 0}, SampleId(points_.size()));
     if (made) {
         GatherPoint point;
         point.x = forest_.point(vertex);
@@ -44,21 +44,49 @@ SampleId SampleSet::in_zone(VertexId vertex, TetId tet) {
     return entry->second;
 }
 
+SampleId SampleSet::in_zone(VertexId vertex, TetId tet, std::uint32_t sides, Point x) {
+    const TetId fan = fans_.of_tet(forest_.carrier(vertex), tet);
+    const auto [entry, made] =
+        ids_.try_emplace({vertex, fan.value, sides}, SampleId(points_.size()));
+    if (made) {
+        GatherPoint point;
+        point.x = x;
+        point.start = {tet};
+        points_.push_back(point);
+    }
+    return entry->second;
+}
+
+GatherPoint SampleSet::on_side(PatchId root) const {
+    const FacetId facet(root.value / 2);
+    GatherPoint point;
+    point.start = mesh::start_on(enclosure_.mesh, facet, root.value % 2 ? Side::back : Side::front);
+    point.normal = normal_of(forest_, root);
+    return point;
+}
+
 SampleId SampleSet::on_patch(VertexId vertex, std::uint32_t facet_side) {
     const auto& carrier = forest_.carrier(vertex);
-    const std::uint32_t fan = fans_.of_facet_side(carrier, facet_side);
+    const PatchId fan(fans_.of_facet_side(carrier, facet_side));
     const auto [entry, made] =
-        ids_.try_emplace({vertex, fan | 0x80000000u}, SampleId(points_.size()));
+        ids_.try_emplace({vertex, fan.value | 0x80000000u, 0}, SampleId(points_.size()));
     if (made) {
-        const FacetId facet(fan / 2);
-        const Side side = fan % 2 ? Side::back : Side::front;
-        const PatchId root = mesh::root_patch(facet, side);
-        GatherPoint point;
+        GatherPoint point = on_side(fan);
         point.x = forest_.point(vertex);
-        point.start = mesh::start_on(enclosure_.mesh, facet, side);
-        point.normal = normal_of(forest_, root);
-        if (dimension(carrier) < 2) point.x += step_inside * (forest_.centroid(root) - point.x);
+        if (dimension(carrier) < 2) point.x += step_inside * (forest_.centroid(fan) - point.x);
         points_.push_back(point);
+    }
+    return entry->second;
+}
+
+SampleId SampleSet::on_patch(VertexId vertex, std::uint32_t facet_side, std::uint32_t sides,
+                             Point x) {
+    const std::uint32_t fan = fans_.of_facet_side(forest_.carrier(vertex), facet_side);
+    const auto [entry, made] =
+        ids_.try_emplace({vertex, fan | 0x80000000u, sides}, SampleId(points_.size()));
+    if (made) {
+        points_.push_back(on_side(PatchId(facet_side)));
+        points_.back().x = x;
     }
     return entry->second;
 }
