@@ -29,7 +29,7 @@ enum class Refinement {
 enum class Start {
     single_zone,  // one zone a medium, the input surfaces as patches
     base,         // the base tetrahedra and facets
-    uniform,      // base tetrahedra and facets bisected down to `element_size`
+    uniform,      // these bisected down to `element_size`, or to what a room needs
     mesh,         // the user's own tetrahedra
 };
 
@@ -43,8 +43,8 @@ struct SolveOptions {
     double error = 0.01;  // goal: estimated relative error of the picture, or of the solution [-]
     std::string exchange = "walked";  // method for exchange areas
     std::string solver = "gmres";     // method for the linear system
-    Start start = Start::base;
-    Refinement refinement = Refinement::view;
+    Start start = Start::uniform;
+    Refinement refinement = Refinement::aligned;
     Radiance radiance = Radiance::linear;
     DirectLightMode direct_light = DirectLightMode::closed_form;
     double element_size =

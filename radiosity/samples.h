@@ -37,6 +37,9 @@ class SampleSet {
                           const LitPatches* lit, const PointSet& on_surfaces,
                           const PointSet& in_zones, std::uint64_t seed);
 
+    // What has been gathered is to be gathered anew, from other sources.
+    void forget_indirect() { gathered_.assign(gathered_.size(), false); }
+
     double direct(SampleId id, std::size_t band) const { return direct_[id.value * bands_ + band]; }
     double indirect(SampleId id, std::size_t band) const {
         return indirect_[id.value * bands_ + band].mean;
