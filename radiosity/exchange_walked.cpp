@@ -54,6 +54,7 @@ class Walker {
         const double capacity = d_.elements.capacity[i * d_.elements.bands + options_.band];
         const double scale = capacity / static_cast<double>(points_.size());
         accumulator.take([&](std::uint32_t column, double sum) {
+            if (!(sum > 0.0)) return;  // nothing was left when the ray came there
             rows.columns.push_back(column);
             rows.values.push_back(scale * sum);
         });

@@ -115,6 +115,10 @@ void read_members(const Hdf5Reader& file, const std::string& folder, const Fores
     if (starts.front() != 0 || starts.back() != e.members.size() ||
         std::adjacent_find(starts.begin(), starts.end(), std::greater_equal<>()) != starts.end())
         file.fail(fmt::format("'{}/member_starts' does not ascend", folder));
+    for (std::size_t k = 0; k < e.members.size(); ++k)
+        if (e.members[k] >=
+            (k < starts[e.patches.size()] ? forest.patch_count() : forest.zone_count()))
+            file.fail(fmt::format("'{}/members' points beyond its table", folder));
     e.member_ends = file.array<double>(folder + "/member_ends");
     expect_size(file, folder + "/member_ends", e.member_ends.size(), e.members.size());
 }
