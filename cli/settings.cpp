@@ -48,7 +48,7 @@ constexpr Setting solve_settings[] = {
      [](T t, K k, Settings& s) { s.solve.error = t.number(k, {0.0, 1.0, true, true}); }},
     {{"camera", "name of a camera", "the first camera", "the camera whose picture matters; \"\" for a solution good everywhere"},
      [](T t, K k, Settings& s) { s.camera = t.text(k); }},
-    {{"start", "\"single-zone\", \"base\" or \"uniform\"", "\"base\"", "the mesh to begin with: one zone a medium and the input polygons, the base tets and facets, or these down to element_size"},
+    {{"start", "\"single-zone\", \"base\" or \"uniform\"", "\"uniform\"", "the mesh to begin with: one zone a medium and the input polygons, the base tets and facets, or these bisected down to element_size (0: to about 4000 zones and 1500 patches)"},
      [](T t, K k, Settings& s) { s.solve.start = static_cast<radiosity::Start>(t.choice(k, start_names)); }},
     {{"refinement", "\"none\", \"uniform\", \"adaptive\", \"view\" or \"aligned\"", "\"aligned\"", "the initial mesh; all down to element_size; where it is needed; where the picture needs it; along shadow boundaries too"},
      [](T t, K k, Settings& s) { s.solve.refinement = static_cast<radiosity::Refinement>(t.choice(k, refinement_names)); }},

@@ -1,13 +1,11 @@
 #include "radiosity/lit_patches.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <numbers>
 
 #include "mesh/visible_polygon.h"
 #include "radiosity/closed_forms.h"
-#include "radiosity/importance.h"
 #include "radiosity/point_set.h"
 
 namespace tyndall::radiosity {
@@ -90,10 +88,7 @@ std::uint32_t LitPatches::add(const Forest& forest, const Fields& lit, PatchId p
 class LitPatches::Visit {
   public:
     Visit(const LitPatches& lit, const Receiver& receiver, std::span<double> incident)
-        : lit_(lit), receiver_(receiver), incident_(incident), depths_(incident.size()) {
-        for (int k = 0; k < 3; ++k)
-            seed_ = hash_seed(seed_, std::bit_cast<std::uint64_t>(receiver.x[k]));
-    }
+        : lit_(lit), receiver_(receiver), incident_(incident), depths_(incident.size()) {}
 
     void node(std::uint32_t index) {
         const Node& n = lit_.nodes_[index];
@@ -164,18 +159,28 @@ class LitPatches::Visit {
     }
 
     void add(const Triangle& t, std::uint32_t index, std::uint64_t stream) {
-        const std::uint64_t bits = hash_seed(seed_, stream);
+        const std::uint64_t bits = hash_seed(0, stream);
         const auto w = uniform_in_triangle(unit(bits), unit(hash_seed(bits, 1)));
         const Direction path =
             w[0] * t.corners[0] + w[1] * t.corners[1] + w[2] * t.corners[2] - receiver_.x;
         const double share = weight(t);
-        if (share <= 0.0 || lit_.occlusion_.blocked(receiver_.x, path)) return;
+        if (share <= 0.0 || blocked(path)) return;
         std::fill(depths_.begin(), depths_.end(), 0.0);
         if (!lit_.depth_.transparent()) lit_.depth_(receiver_.x, receiver_.tet, path, depths_);
         for (std::size_t b = 0; b < incident_.size(); ++b)
             incident_[b] +=
                 share * std::exp(-depths_[b]) *
                 std::max(0.0, lit_.radiance_[index * incident_.size() + b].at(t.centroid));
+    }
+
+    // Shadow rays leave out the first bit of the way; a wall that close is met by walking it.
+    bool blocked(Direction path) const {
+        const double length = glm::length(path);
+        const mesh::Ray ray{receiver_.x, path / length,
+                            std::min(length, 2.0 * lit_.occlusion_.end_gap())};
+        const auto end = mesh::walk(lit_.enclosure_.mesh, ray, {receiver_.tet},
+                                    [](TetId, double, double) { return true; });
+        return end.arrival == mesh::Arrival::struck || lit_.occlusion_.blocked(receiver_.x, path);
     }
 
     double weight(const Triangle& t) {
@@ -192,7 +197,6 @@ class LitPatches::Visit {
     std::span<double> incident_;
     std::vector<double> depths_;
     std::vector<Point> above_;
-    std::uint64_t seed_ = 0;
 };
 
 void LitPatches::gather(const Receiver& receiver, std::span<double> incident) const {

@@ -4,7 +4,8 @@
 //   luck; here it is looked at on purpose, so that the rays carry only what is smooth.
 // Equation: H = Σ_nodes r̄ F(x, node) τ V, over nodes of the patches' bisection trees that are small
 //   as seen from x; F in closed form (closed_forms.h), r̄ the mean of r^A = ρ H^A over the node, τ
-//   and V towards one point of the node, chosen anew for every x and node.
+//   and V towards one point of the node, chosen at random but the same for every x, so that H is
+//   smooth where nothing is in the way.
 // Valid for: Lambertian patches, any occlusion. Unbiased in V; r̄ and τ vary little over a node that
 //   is accepted.
 // Cost: O(log patches) nodes a point, one shadow ray each.
