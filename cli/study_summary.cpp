@@ -1,0 +1,199 @@
+#include "cli/study_summary.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <iterator>
+
+#include "cli/job.h"
+#include "cli/study_plot.h"
+#include "cli/study_table.h"
+#include "mesh/file_bytes.h"
+
+namespace tyndall::cli {
+namespace {
+
+std::string_view name_of(Figure figure) {
+    return figure_names[static_cast<std::size_t>(figure)];
+}
+
+std::string words_of(const std::string& measure) {
+    if (measure == "single_scattering") return "direct light and single scattering";
+    if (measure == "surfaces") return "light from surfaces";
+    if (measure == "media") return "light from media";
+    return measure == "probe" ? "probes" : "picture";
+}
+
+std::string words_of(Figure figure) {
+    if (figure == Figure::rmse) return "RMSE";
+    return figure == Figure::block4 ? "RMSE of 4×4 blocks" : "RMSE of 16×16 blocks";
+}
+
+std::string plot_name(const std::string& measure, Figure figure, Cost cost) {
+    return fmt::format("{}_{}_{}.svg", measure, name_of(figure),
+                       cost == Cost::elements ? "elements" : "cpu");
+}
+
+// Markdown's tables have bars of their own.
+std::string table_cell(std::string text) {
+    for (std::size_t at = 0; (at = text.find('|', at)) != text.npos; at += 2)
+        text.replace(at, 1, "\\|");
+    for (char& c : text)
+        if (c == '\n') c = ' ';
+    return text;
+}
+
+std::string percent(double error) {
+    return std::isfinite(error) ? fmt::format("{:.3g} %", 100.0 * error) : "";
+}
+
+std::string need_words(const Need& need, int digits) {
+    const char* mark = need.kind == Need::Kind::at        ? ""
+                       : need.kind == Need::Kind::at_most ? "≤ "
+                                                          : "> ";
+    if (need.cost >= 1000.0) return fmt::format("{}{:.0f}", mark, need.cost);
+    return fmt::format("{}{:.{}g}", mark, need.cost, digits);
+}
+
+// How many times fewer than `first`; bounds stay bounds.
+std::string times_fewer(const Need& first, const Need& need) {
+    using Kind = Need::Kind;
+    const double times = first.cost / need.cost;
+    const bool at_least = first.kind == Kind::more_than && need.kind != Kind::more_than;
+    const bool at_least_too = first.kind == Kind::at && need.kind == Kind::at_most;
+    if (at_least || at_least_too) return fmt::format("> {:.3g}", times);
+    const bool at_most = (first.kind == Kind::at && need.kind == Kind::more_than) ||
+                         (first.kind == Kind::at_most && need.kind != Kind::at_most);
+    if (at_most) return fmt::format("< {:.3g}", times);
+    return first.kind == Kind::at && need.kind == Kind::at ? fmt::format("{:.3g}", times) : "";
+}
+
+std::string target_table(const Study& study, const std::vector<StudyRow>& rows) {
+    const auto targets = targets_of(study, rows);
+    if (targets.empty()) return "";
+    std::string text =
+        "## Elements for an error\n\nInterpolated on the logarithms. ≤: the curve's first run is "
+        "good enough; >: its last is not. The last column compares with the first curve of the "
+        "same measure.\n\n| measure | figure | error | curve | elements | CPU s | times fewer "
+        "elements |\n|---|---|---|---|---|---|---|\n";
+    const Target* first = nullptr;
+    for (const auto& t : targets) {
+        if (!first || first->measure != t.measure || first->figure != t.figure ||
+            first->error != t.error)
+            first = &t;
+        text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", t.measure, name_of(t.figure),
+                            percent(t.error), table_cell(t.curve), need_words(t.elements, 3),
+                            need_words(t.cpu_seconds, 3),
+                            first == &t ? "" : times_fewer(first->elements, t.elements));
+    }
+    return text + "\n";
+}
+
+std::string slope_table(const Study& study, const std::vector<StudyRow>& rows) {
+    std::string text =
+        "## Slopes\n\nExponents p of error ~ elements^p and error ~ CPU seconds^p, fitted to all "
+        "runs of a curve.\n\n| measure | figure | curve | against elements | against CPU s "
+        "|\n|---|---|---|---|---|\n";
+    const std::size_t head = text.size();
+    const auto slope_text = [](const Curve& curve) {
+        const auto slope = fitted_slope(curve);
+        return slope ? fmt::format("{:.2f}", *slope) : std::string();
+    };
+    for (const auto& measure : study.measures)
+        for (const Figure figure : figures_of(measure)) {
+            const std::string name(measure.name());
+            const auto elements = curves_of(rows, name, figure, Cost::elements);
+            const auto seconds = curves_of(rows, name, figure, Cost::cpu_seconds);
+            for (std::size_t c = 0; c < elements.size(); ++c)
+                text += fmt::format("| {} | {} | {} | {} | {} |\n", name, name_of(figure),
+                                    table_cell(elements[c].name), slope_text(elements[c]),
+                                    slope_text(seconds[c]));
+        }
+    return text.size() == head ? "" : text + "\n";
+}
+
+std::string run_table(const Study& study, const std::vector<StudyRow>& rows) {
+    std::string head = "| run |", rule = "|---|", text;
+    for (const char* name : {"patches", "zones", "CPU s", "MB"}) {
+        head += fmt::format(" {} |", name);
+        rule += "---|";
+    }
+    for (const auto& measure : study.measures)
+        for (const Figure figure : figures_of(measure)) {
+            head += fmt::format(" {} {} |", measure.name(), name_of(figure));
+            rule += "---|";
+        }
+    for (const auto& row : rows) {
+        if (row.record.failed()) continue;
+        const auto& f = row.record.figures;
+        text += fmt::format("| [{0}](runs/{0}/) | {1} | {2} | {3:.1f} | {4:.0f} |", row.run.slug,
+                            f.patches, f.zones, f.cpu_seconds,
+                            static_cast<double>(f.memory_bytes) / 1e6);
+        for (const auto& measure : study.measures) {
+            const auto found = row.record.errors.find(std::string(measure.name()));
+            for (const Figure figure : figures_of(measure)) {
+                const bool there = found != row.record.errors.end();
+                const double error = !there                     ? NAN
+                                     : figure == Figure::rmse   ? found->second.rmse
+                                     : figure == Figure::block4 ? found->second.block4
+                                                                : found->second.block16;
+                text += fmt::format(" {} |", percent(error));
+            }
+        }
+        text += "\n";
+    }
+    return "## Runs\n\n" + head + "\n" + rule + "\n" + text + "\n";
+}
+
+std::string failures(const std::vector<StudyRow>& rows) {
+    std::string text;
+    for (const auto& row : rows)
+        if (row.record.failed())
+            text += fmt::format("- {}: {}\n", row.run.slug, table_cell(row.record.failure));
+    return text.empty() ? "" : "## What failed\n\n" + text + "\n";
+}
+
+std::string plot_links(const Study& study) {
+    std::string text = "## Plots\n\n";
+    for (const auto& measure : study.measures)
+        for (const Figure figure : figures_of(measure))
+            for (const Cost cost : {Cost::elements, Cost::cpu_seconds}) {
+                const std::string name(measure.name());
+                text +=
+                    fmt::format("![{} of the {} against {}](plots/{})\n", words_of(figure),
+                                words_of(name), cost == Cost::elements ? "elements" : "CPU seconds",
+                                plot_name(name, figure, cost));
+            }
+    return text + "\n";
+}
+
+}  // namespace
+
+void write_plots(const std::filesystem::path& folder, const Study& study,
+                 const std::vector<StudyRow>& rows) {
+    prepare_folder(folder / "plots");
+    for (const auto& measure : study.measures)
+        for (const Figure figure : figures_of(measure))
+            for (const Cost cost : {Cost::elements, Cost::cpu_seconds}) {
+                const std::string name(measure.name());
+                const Plot plot{
+                    fmt::format("{}: {}", study.title, words_of(name)),
+                    cost == Cost::elements ? "elements (patches and zones)" : "CPU time [s]",
+                    words_of(figure) + " [% of the reference's mean]",
+                    curves_of(rows, name, figure, cost), study.errors};
+                mesh::write_file(folder / "plots" / plot_name(name, figure, cost), svg_of(plot));
+            }
+}
+
+std::string summary_of(const Study& study, const std::vector<StudyRow>& rows) {
+    std::size_t failed = 0;
+    for (const auto& row : rows) failed += row.record.failed();
+    auto text = fmt::format("# {}\n\n{} runs of `{}`", study.title, rows.size(),
+                            study.scene.filename().string());
+    if (failed > 0) text += fmt::format(", {} of which failed", failed);
+    text += ". Errors are relative to the reference's mean. All figures: `study.csv`.\n\n";
+    return text + target_table(study, rows) + slope_table(study, rows) + run_table(study, rows) +
+           failures(rows) + plot_links(study);
+}
+
+}  // namespace tyndall::cli
