@@ -21,7 +21,7 @@ using Colour = std::array<double, 3>;  // sRGB codes, 0 to 255
 
 constexpr std::size_t overlay_width = 640, slice_length = 960;
 constexpr Colour edge_colour{255, 120, 0}, empty_colour{235, 235, 235};
-constexpr double edge_share = 0.65, slice_edge_share = 0.4;
+constexpr double edge_share = 0.65, slice_edge_share = 0.3;
 
 void blend(render::DisplayImage& image, std::size_t pixel, const Colour& colour, double share) {
     for (std::size_t c = 0; c < 3; ++c) {
@@ -30,15 +30,17 @@ void blend(render::DisplayImage& image, std::size_t pixel, const Colour& colour,
     }
 }
 
-// Blends `colour` in where a pixel's id differs from that of its right or lower neighbour.
-void draw_edges(render::DisplayImage& image, const std::vector<std::uint32_t>& ids,
-                const Colour& colour, double share) {
+// Blends the colour that `colour` chooses for a pixel in, where its id differs from that of its
+// right or lower neighbour.
+template <class ColourFor>
+void draw_edges(render::DisplayImage& image, const std::vector<std::uint32_t>& ids, double share,
+                ColourFor&& colour) {
     for (std::size_t y = 0; y < image.height; ++y)
         for (std::size_t x = 0; x < image.width; ++x) {
             const std::size_t pixel = y * image.width + x;
             const bool right = x + 1 < image.width && ids[pixel] != ids[pixel + 1];
             const bool below = y + 1 < image.height && ids[pixel] != ids[pixel + image.width];
-            if (right || below) blend(image, pixel, colour, share);
+            if (right || below) blend(image, pixel, colour(&image.values[3 * pixel]), share);
         }
 }
 
@@ -148,13 +150,28 @@ Colour heat_colour(double t) {
     return colour;
 }
 
-double percentile(std::vector<double> values, double share) {
-    std::erase_if(values, [](double v) { return !(v > 0.0); });
-    if (values.empty()) return 1.0;
+// Colours by the logarithm: shafts are many times brighter near their lamp than far from it.
+struct ColourScale {
+    double low, high;
+
+    Colour operator()(double value) const {
+        if (!(value > low)) return heat_colour(0.0);
+        return heat_colour(std::log(value / low) / std::log(high / low));
+    }
+};
+
+double percentile(std::vector<double>& values, double share) {
     const auto at = values.begin() +
                     static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
     std::nth_element(values.begin(), at, values.end());
     return *at;
+}
+
+ColourScale scale_for(std::vector<double> values) {
+    std::erase_if(values, [](double v) { return !(v > 0.0); });
+    if (values.empty()) return {0.1, 1.0};
+    const double high = percentile(values, 0.995), low = percentile(values, 0.005);
+    return {std::clamp(low, 1e-3 * high, 0.5 * high), high};
 }
 
 double mean_source(const Solution& s, mesh::ZoneId zone, Point x) {
@@ -185,7 +202,7 @@ render::DisplayImage mesh_overlay(const Solution& solution, const render::Camera
                 patch_seen(solution, ray, eye.valid() ? eye : mesh::locate(base, ray.origin));
         }
     });
-    draw_edges(image, ids, edge_colour, edge_share);
+    draw_edges(image, ids, edge_share, [](const std::uint8_t*) { return edge_colour; });
     return image;
 }
 
@@ -219,10 +236,12 @@ render::DisplayImage mesh_slice(const Solution& solution, const Plane& plane) {
             sources[y * image.width + x] = mean_source(solution, zone, p);
         }
     });
-    const double white = percentile(sources, 0.995);
+    const ColourScale colour = scale_for(sources);
     for (std::size_t k = 0; k < count; ++k)
-        if (ids[k] != none) blend(image, k, heat_colour(sources[k] / white), 1.0);
-    draw_edges(image, ids, {0, 0, 0}, slice_edge_share);
+        if (ids[k] != none) blend(image, k, colour(sources[k]), 1.0);
+    draw_edges(image, ids, slice_edge_share, [](const std::uint8_t* rgb) {
+        return rgb[1] > 110 ? Colour{0, 0, 0} : Colour{255, 255, 255};
+    });
     return image;
 }
 

@@ -26,9 +26,10 @@ struct Plane {
 //   two horizontal sides.
 Plane default_plane(const radiosity::Enclosure& enclosure);
 
-// Purpose: the zones that a plane cuts, coloured by J as their linear functions hold it (dark blue
-// 0, yellow
-//   the 99.5th percentile of the plane or more), with their edges; light grey where there is no
+// Purpose: the zones that a plane cuts, coloured by the logarithm of J as their linear functions
+// hold it
+//   (dark blue to yellow: the 0.5th to the 99.5th percentile of the plane, at most three decades),
+//   with their edges; light grey where there is no
 //   medium. 960 pixels along the longer side of the media's extent. Up in the picture is z.
 // Cost: one point location a pixel.
 render::DisplayImage mesh_slice(const radiosity::Solution& solution, const Plane& plane);

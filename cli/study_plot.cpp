@@ -47,20 +47,28 @@ struct LogAxis {
     }
 };
 
-// Wide enough for all values with some room, by at least a factor of 3.
+// The nearest of 1, 2, 5 times a power of ten that is not above the value.
+double round_down(double value) {
+    const double decade = std::pow(10.0, std::floor(std::log10(value) + 1e-9));
+    for (const double m : {5.0, 2.0})
+        if (m * decade <= value * (1 + 1e-9)) return m * decade;
+    return decade;
+}
+
+double round_up(double value) {
+    const double below = round_down(value);
+    if (below >= value * (1 - 1e-9)) return below;
+    const double lead = below / std::pow(10.0, std::floor(std::log10(below) + 1e-9));
+    return lead < 1.5 || lead > 4.5 ? 2.0 * below : 2.5 * below;
+}
+
+// From one round number to another, with room for the marks.
 LogAxis axis_for(std::vector<double> values, double begin, double end) {
     if (values.empty()) values = {1.0, 100.0};
-    double low = *std::min_element(values.begin(), values.end());
-    double high = *std::max_element(values.begin(), values.end());
-    const double room = std::max(std::pow(high / low, 0.06), 1.0);
-    low /= room;
-    high *= room;
-    if (high / low < 3.0) {
-        const double middle = std::sqrt(low * high);
-        low = middle / std::sqrt(3.0);
-        high = middle * std::sqrt(3.0);
-    }
-    return {low, high, begin, end};
+    constexpr double room = 1.05;
+    const double low = *std::min_element(values.begin(), values.end()) / room;
+    const double high = *std::max_element(values.begin(), values.end()) * room;
+    return {round_down(low), round_up(high), begin, end};
 }
 
 class Drawing {
