@@ -58,25 +58,26 @@ class Session {
                                         "[[camera]], or measure \"probe\".",
                                         measure.name()));
         }
-        for (const auto& measure : study_.measures)
-            if (measure.reference.file.empty()) reference_scene(measure);
+        for (const auto& run : runs_)
+            for (const auto& measure : study_.measures)
+                if (measure.reference.file.empty()) reference_scene(measure, run);
     }
 
     void forget_runs() const {
         fs::remove_all(folder_ / "runs");
-        fs::remove_all(folder_ / "reference");
-        for (const auto& measure : study_.measures)
-            fs::remove_all(folder_ / fmt::format("reference_{}", measure.name()));
+        fs::remove_all(folder_ / "references");
     }
 
-    std::vector<PlacedSetting> reference_settings(const StudyMeasure& measure) const {
+    // A finer run of the same scene: of [set], of the axes that change the scene, its own.
+    std::vector<PlacedSetting> reference_settings(const StudyMeasure& measure,
+                                                  const StudyRun& run) const {
         auto settings = common_settings(study_, flags_);
-        settings.insert(settings.end(), measure.reference.overrides.begin(),
-                        measure.reference.overrides.end());
+        for (const auto* more : {&run.scene_overrides, &measure.reference.overrides})
+            settings.insert(settings.end(), more->begin(), more->end());
         return settings;
     }
-    SceneFile reference_scene(const StudyMeasure& measure) const {
-        return scene_with(study_, reference_settings(measure));
+    SceneFile reference_scene(const StudyMeasure& measure, const StudyRun& run) const {
+        return scene_with(study_, reference_settings(measure, run));
     }
 
     StudyJob job(const fs::path& folder, const std::vector<PlacedSetting>& settings,
@@ -94,17 +95,19 @@ class Session {
         return job;
     }
 
-    // The finer run that a measure refers to; the same run is made once for all of them.
-    fs::path reference_run(const StudyMeasure& measure) {
-        const auto settings = reference_settings(measure);
-        const auto file = reference_scene(measure);
+    // The finer run that a measure refers to; the same run is made once for all measures.
+    fs::path reference_run(const StudyMeasure& measure, const StudyRun& run) {
+        const auto file = reference_scene(measure, run);
         const auto key = run_key(study_.scene, file);
         if (const auto found = reference_folders_.find(key); found != reference_folders_.end())
             return found->second;
-        const fs::path folder =
-            folder_ / (reference_folders_.empty() ? std::string("reference")
-                                                  : fmt::format("reference_{}", measure.name()));
-        const auto record = perform(job(folder, settings, "reference"), file, progress_);
+        std::string name = run.scene_slug.empty() ? "reference" : run.scene_slug;
+        for (const auto& [other, taken] : reference_folders_)
+            if (taken.filename() == name) name += fmt::format("_{}", measure.name());
+        const fs::path folder = folder_ / "references" / name;
+        const auto record = perform(job(folder, reference_settings(measure, run),
+                                        fmt::format("reference {}", run.scene_slug)),
+                                    file, progress_);
         if (!record) return {};
         if (record->failed())
             fail_at(measure.reference.place,
@@ -113,37 +116,44 @@ class Session {
         return folder;
     }
 
-    bool load_references() {
+    // What a run is measured by, loaded or made. False if stopped.
+    bool load_references(const StudyRun& run) {
+        auto& references = references_[run.scene_slug];
+        if (!references.empty()) return true;
         for (const auto& measure : study_.measures) {
             auto reference = load_reference(
-                study_, measure, [this](const auto& m) { return reference_run(m); },
+                study_, measure, [&](const auto& m) { return reference_run(m, run); },
                 progress_.callback());
             if (!reference) return false;
-            check_sizes(*reference);
-            references_.push_back(std::move(*reference));
+            references.push_back(std::move(*reference));
         }
         return true;
     }
 
-    void check_sizes(const Reference& reference) const {
-        if (!reference.measure.of_picture()) return;
+    bool load_references() {
         for (const auto& run : runs_) {
-            const auto file = scene_with(study_, run.overrides);
-            const auto& camera = find_camera(file.cameras, file.view_camera);
-            if (camera.width != reference.width || camera.height != reference.height)
-                fail_at(reference.measure.reference.place,
-                        fmt::format("the reference of {} has {} × {} pixels, and the picture of "
-                                    "run {} will have {} × {}. Set the camera's width and height "
-                                    "in [set].",
-                                    reference.measure.name(), reference.width, reference.height,
-                                    run.slug, camera.width, camera.height));
-            if (file.scene.bands != reference.layer.channels)
-                fail_at(reference.measure.reference.place,
-                        fmt::format("the reference of {} has {} channels, and the scene has {} "
-                                    "bands. Give one with as many.",
-                                    reference.measure.name(), reference.layer.channels,
-                                    file.scene.bands));
+            if (!load_references(run)) return false;
+            for (const auto& reference : references_[run.scene_slug]) check_size(reference, run);
         }
+        return true;
+    }
+
+    void check_size(const Reference& reference, const StudyRun& run) const {
+        if (!reference.measure.of_picture()) return;
+        const auto file = scene_with(study_, run.overrides);
+        const auto& camera = find_camera(file.cameras, file.view_camera);
+        const auto fail = [&](const std::string& what) {
+            fail_at(reference.measure.reference.place,
+                    fmt::format("the reference of {} has {}", reference.measure.name(), what));
+        };
+        if (camera.width != reference.width || camera.height != reference.height)
+            fail(fmt::format(
+                "{} × {} pixels, and the picture of run {} will have {} × {}. Set the "
+                "camera's width and height in [set].",
+                reference.width, reference.height, run.slug, camera.width, camera.height));
+        if (file.scene.bands != reference.layer.channels)
+            fail(fmt::format("{} channels, and the scene has {} bands. Give one with as many.",
+                             reference.layer.channels, file.scene.bands));
     }
 
     bool do_runs() {
@@ -156,7 +166,7 @@ class Session {
                             fmt::format("run {} of {}: {}", k + 1, runs_.size(), run.slug)),
                         file, progress_);
             if (!record) return false;
-            measure(folder, *record);
+            measure(folder, references_[run.scene_slug], *record);
             if (progress_.stopped()) return false;
             rows_.push_back({run, std::move(*record)});
             mesh::write_file(folder_ / "study.csv", study_csv(study_, rows_));
@@ -164,8 +174,9 @@ class Session {
         return true;
     }
 
-    void measure(const fs::path& folder, RunRecord& record) {
-        for (const auto& reference : references_) {
+    void measure(const fs::path& folder, const std::vector<Reference>& references,
+                 RunRecord& record) {
+        for (const auto& reference : references) {
             if (record.failed()) return;
             try {
                 measure_run(study_, reference, folder, record, progress_.callback());
@@ -231,8 +242,8 @@ class Session {
     std::vector<StudyRun> runs_;
     fs::path folder_;
     ProgressLine progress_;
-    std::map<std::string, fs::path> reference_folders_;  // by the key of the run
-    std::vector<Reference> references_;
+    std::map<std::string, fs::path> reference_folders_;         // by the key of the run
+    std::map<std::string, std::vector<Reference>> references_;  // by the slug of the scene
     std::vector<StudyRow> rows_;
 };
 

@@ -75,6 +75,10 @@ void append(std::string& text, const std::string& part, const char* link) {
     if (!part.empty()) text += (text.empty() ? "" : link) + part;
 }
 
+bool changes_scene(const std::string& key) {
+    return !key.starts_with("solve.") && !key.starts_with("render.");
+}
+
 StudyRun make_run(const Study& study, const Matrix& matrix, const Names& names,
                   const std::vector<std::string>& columns, std::size_t index) {
     StudyRun run;
@@ -92,6 +96,10 @@ StudyRun make_run(const Study& study, const Matrix& matrix, const Names& names,
         const auto column = std::find(columns.begin(), columns.end(), axis.key) - columns.begin();
         run.cells[static_cast<std::size_t>(column)] = values[k]->label;
         append(run.slug, names.slug_part(axis, *values[k]), "_");
+        if (changes_scene(axis.key)) {
+            run.scene_overrides.push_back(run.overrides.back());
+            append(run.scene_slug, names.slug_part(axis, *values[k]), "_");
+        }
         if (matrix.along == k)
             run.along = values[k]->number;
         else

@@ -17,6 +17,9 @@ struct StudyRun {
     std::string slug;                      // of the run's folder, unique in the study
     std::string curve;                     // what it has in common with those of its curve
     std::optional<double> along;           // value on the axis that its curve follows
+    // Those of the axes that change what is to be found, not how: all but solve.* and render.*.
+    std::vector<PlacedSetting> scene_overrides;
+    std::string scene_slug;  // of these; "" for none
 
     std::vector<std::string> override_texts() const;
 };

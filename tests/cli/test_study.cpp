@@ -119,7 +119,8 @@ TEST_CASE("A study runs its matrix, measures, plots, and keeps what is done") {
                                  "solution.vtkhdf", "difference_picture.png"})
             CHECK(fs::exists(folder / name));
         // What the study says is what `tyndall compare` says.
-        const auto compared = place.run("compare '" + folder.string() + "' out/reference --json");
+        const auto compared =
+            place.run("compare '" + folder.string() + "' out/references/reference --json");
         CHECK(nlohmann::json::parse(compared.out).at("rmse").get<double>() ==
               Approx(row.at("picture_rmse").get<double>()));
     }
@@ -154,13 +155,16 @@ TEST_CASE("A study runs its matrix, measures, plots, and keeps what is done") {
     }
     SECTION("files as references, for each measure its own") {
         place.write("points.csv", "0.5,0.5,0.5\n0.2,0.7,0.3\n");
-        REQUIRE(place.run("probe out/reference --points points.csv -o values.csv").code == 0);
+        REQUIRE(
+            place.run("probe out/references/reference --points points.csv -o values.csv").code ==
+            0);
         auto filed = two_runs;
         const std::string finer = "{ \"solve.element_size\" = 0.3 }";
-        filed.replace(filed.find(finer), finer.size(),
-                      "{ picture = \"out/reference/image.exr\", single_scattering = "
-                      "\"out/reference\", surfaces = \"out/reference\", media = "
-                      "\"out/reference/image.exr\", probe = \"values.csv\" }");
+        filed.replace(
+            filed.find(finer), finer.size(),
+            "{ picture = \"out/references/reference/image.exr\", single_scattering = "
+            "\"out/references/reference\", surfaces = \"out/references/reference\", media = "
+            "\"out/references/reference/image.exr\", probe = \"values.csv\" }");
         place.write("study.toml", filed);
         const auto outcome = place.run("study study.toml -o out --json");
         INFO(outcome.err);
@@ -195,6 +199,27 @@ reference = "good/image.exr"
     CHECK(record->failed());
     CHECK_THAT(record->failure, Contains("haze"));
     CHECK_THAT(contents(place.path / "out/study.md"), Contains("1 of which failed"));
+}
+
+TEST_CASE("An axis that changes the scene has a reference for each of its values") {
+    const Workplace place;
+    place.write("study.toml", R"(scene = "scene.toml"
+reference = { "solve.element_size" = 0.5 }
+[axes]
+"medium.haze.extinction" = [0.2, 2.0]
+"solve.refinement" = ["uniform"]
+"solve.element_size" = [0.8, 0.5]
+)");
+    const auto outcome = place.run("study study.toml -o out --json");
+    INFO(outcome.err);
+    REQUIRE(outcome.code == 0);
+    const auto rows = nlohmann::json::parse(outcome.out).at("rows");
+    REQUIRE(rows.size() == 4);
+    for (const char* name : {"extinction-0.2", "extinction-2.0"})
+        CHECK(fs::exists(place.path / "out/references" / name / "image.exr"));
+    // What is as fine as the reference (but for its refinement beyond that size) is near it, thick
+    // or thin; against the other's reference it would be off by more than half.
+    for (const auto& row : rows) CHECK(row.at("picture_rmse").get<double>() < 0.3);
 }
 
 TEST_CASE("What cannot be measured is said before any run") {

@@ -32,7 +32,10 @@ Curve power_law(double exponent, std::vector<double> costs) {
 // A row of a study of solve.error whose picture is off by `error`.
 StudyRow row(const std::string& curve, double along, std::size_t zones, double error) {
     StudyRow row;
-    row.run = {{}, {std::to_string(along)}, curve + "-" + std::to_string(zones), curve, along};
+    row.run.cells = {std::to_string(along)};
+    row.run.slug = curve + "-" + std::to_string(zones);
+    row.run.curve = curve;
+    row.run.along = along;
     row.record.figures.zones = zones;
     row.record.figures.cpu_seconds = 0.001 * static_cast<double>(zones);
     row.record.errors["picture"] = {error, -error, 0.5 * error, 0.1 * error};
