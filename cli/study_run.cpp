@@ -75,17 +75,19 @@ std::string drawing_text(const StudyJob& job) {
                        n.z);
 }
 
-// A slice of the mesh of every pass that the run has kept.
+// A slice of the mesh of every pass that the run has kept as a solution file.
 void draw_passes(const StudyJob& job, const fs::path& folder) {
     std::error_code error;
     for (const auto& entry : fs::directory_iterator(folder / "passes", error)) {
         if (entry.path().extension() != ".vtkhdf") continue;
-        const auto file = radiosity::read_solution(entry.path());
-        auto picture = entry.path();
-        picture.replace_extension(".png");
-        render::write_image(
-            picture,
-            mesh_slice(file.solution, job.slice.value_or(default_plane(*file.solution.enclosure))));
+        try {
+            const auto solved = radiosity::read_solution(entry.path()).solution;
+            const Plane plane = job.slice.value_or(default_plane(*solved.enclosure));
+            render::write_image(fs::path(entry.path()).replace_extension(".png"),
+                                mesh_slice(solved, plane));
+        } catch (const mesh::InputError&) {
+            continue;  // a mesh without its light has nothing to be coloured by
+        }
     }
 }
 

@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <map>
 
 #include "cli/job.h"
 #include "cli/study_plot.h"
@@ -68,25 +70,45 @@ std::string times_fewer(const Need& first, const Need& need) {
     return first.kind == Kind::at && need.kind == Kind::at ? fmt::format("{:.3g}", times) : "";
 }
 
-std::string target_table(const Study& study, const std::vector<StudyRow>& rows) {
+// One measure's figure: a row a curve, a column an error.
+std::string target_table(const Study& study, const std::vector<Target>& targets,
+                         const std::string& measure, Figure figure) {
+    std::string head = "| curve |", rule = "|---|";
+    for (const double error : study.errors) {
+        head += fmt::format(" {} |", percent(error));
+        rule += "---|";
+    }
+    std::map<double, Need> first;  // of the first curve, by error
+    std::vector<std::pair<std::string, std::string>> lines;
+    for (const auto& t : targets) {
+        if (t.measure != measure || t.figure != figure) continue;
+        auto line = std::find_if(lines.begin(), lines.end(),
+                                 [&](const auto& l) { return l.first == t.curve; });
+        if (line == lines.end()) line = lines.insert(lines.end(), {t.curve, ""});
+        const bool is_first = first.emplace(t.error, t.elements).second;
+        const auto times = is_first ? "" : times_fewer(first.at(t.error), t.elements);
+        line->second +=
+            fmt::format(" {}, {} s{} |", need_words(t.elements, 3), need_words(t.cpu_seconds, 3),
+                        times.empty() ? "" : ", **" + times + "×**");
+    }
+    if (lines.empty()) return "";
+    auto text = fmt::format("### {}: {}\n\n{}\n{}\n", measure, words_of(figure), head, rule);
+    for (const auto& [curve, cells] : lines)
+        text += fmt::format("| {} |{}\n", table_cell(curve), cells);
+    return text + "\n";
+}
+
+std::string target_tables(const Study& study, const std::vector<StudyRow>& rows) {
     const auto targets = targets_of(study, rows);
     if (targets.empty()) return "";
     std::string text =
-        "## Elements for an error\n\nInterpolated on the logarithms. ≤: the curve's first run is "
-        "good enough; >: its last is not. The last column compares with the first curve of the "
-        "same measure.\n\n| measure | figure | error | curve | elements | CPU s | times fewer "
-        "elements |\n|---|---|---|---|---|---|---|\n";
-    const Target* first = nullptr;
-    for (const auto& t : targets) {
-        if (!first || first->measure != t.measure || first->figure != t.figure ||
-            first->error != t.error)
-            first = &t;
-        text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", t.measure, name_of(t.figure),
-                            percent(t.error), table_cell(t.curve), need_words(t.elements, 3),
-                            need_words(t.cpu_seconds, 3),
-                            first == &t ? "" : times_fewer(first->elements, t.elements));
-    }
-    return text + "\n";
+        "## Elements for an error\n\nElements and CPU seconds, interpolated on the logarithms; "
+        "bold: how many times fewer elements than the first curve. ≤: the curve's first run is "
+        "good enough; >: its last is not.\n\n";
+    for (const auto& measure : study.measures)
+        for (const Figure figure : figures_of(measure))
+            text += target_table(study, targets, std::string(measure.name()), figure);
+    return text;
 }
 
 std::string slope_table(const Study& study, const std::vector<StudyRow>& rows) {
@@ -192,7 +214,7 @@ std::string summary_of(const Study& study, const std::vector<StudyRow>& rows) {
                             study.scene.filename().string());
     if (failed > 0) text += fmt::format(", {} of which failed", failed);
     text += ". Errors are relative to the reference's mean. All figures: `study.csv`.\n\n";
-    return text + target_table(study, rows) + slope_table(study, rows) + run_table(study, rows) +
+    return text + target_tables(study, rows) + slope_table(study, rows) + run_table(study, rows) +
            failures(rows) + plot_links(study);
 }
 
