@@ -24,7 +24,8 @@ constexpr auto first_pause = 1ms, longest_pause = 50ms;
 constexpr int cannot_start = 127;
 
 // Between fork and exec: nothing that allocates.
-[[noreturn]] void become(const char* program, char* const* argv, int messages, pid_t parent) {
+[[noreturn]] void become(const char* program, char* const* argv, int messages, pid_t parent,
+                         const sigset_t& signals) {
     ::setpgid(0, 0);
     ::prctl(PR_SET_PDEATHSIG, SIGTERM);
     if (::getppid() != parent) ::_exit(cannot_start);  // it died before the line above
@@ -34,6 +35,7 @@ constexpr int cannot_start = 127;
     ::dup2(messages, STDERR_FILENO);
     std::signal(SIGINT, SIG_DFL);
     std::signal(SIGTERM, SIG_DFL);
+    ::sigprocmask(SIG_SETMASK, &signals, nullptr);
     ::execv(program, argv);
     ::_exit(cannot_start);
 }
@@ -48,10 +50,18 @@ pid_t start(const std::filesystem::path& program, std::vector<std::string> argum
     std::vector<char*> argv{name.data()};
     for (auto& argument : arguments) argv.push_back(argument.data());
     argv.push_back(nullptr);
+    // A signal that comes before the child has become the program must not meet our handlers: it
+    // waits until they are gone.
+    sigset_t wait, before;
+    sigemptyset(&wait);
+    sigaddset(&wait, SIGINT);
+    sigaddset(&wait, SIGTERM);
+    ::sigprocmask(SIG_BLOCK, &wait, &before);
     const pid_t parent = ::getpid();
     const pid_t id = ::fork();
-    if (id == 0) become(name.c_str(), argv.data(), file, parent);
+    if (id == 0) become(name.c_str(), argv.data(), file, parent, before);
     const int error = errno;
+    ::sigprocmask(SIG_SETMASK, &before, nullptr);
     ::close(file);
     if (id < 0)
         throw mesh::InputError(
