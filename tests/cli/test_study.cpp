@@ -147,6 +147,17 @@ TEST_CASE("A study runs its matrix, measures, plots, and keeps what is done") {
         CHECK(place.rows() == 3);
         CHECK(place.made("refinement-uniform_element_size-0.5") == before);
     }
+    SECTION("another slice: the same runs, drawn again") {
+        const auto before = place.made("refinement-uniform_element_size-0.5");
+        const auto slice = place.path / "out/runs/refinement-uniform_element_size-0.5/slice.png";
+        const auto drawn = contents(slice);
+        place.write("study.toml", std::string("slice = { point = [0.2, 0.5, 0.5], normal = [1, 0, "
+                                              "0] }\n") +
+                                      two_runs);
+        CHECK(place.run("study study.toml -o out --quiet").code == 0);
+        CHECK(place.made("refinement-uniform_element_size-0.5") == before);
+        CHECK(contents(slice) != drawn);
+    }
     SECTION("another scene: all is run again") {
         const auto before = place.made("refinement-uniform_element_size-0.5");
         place.write("scene.toml", std::string(scene) + "environment = { radiance = 1.0 }\n");
