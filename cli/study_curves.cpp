@@ -6,6 +6,8 @@
 namespace tyndall::cli {
 namespace {
 
+constexpr double flattest = -0.1;  // slopes above it say nothing about what is beyond
+
 double figure_of(const MeasureErrors& errors, Figure figure) {
     if (figure == Figure::rmse) return errors.rmse;
     return figure == Figure::block4 ? errors.block4 : errors.block16;
@@ -70,7 +72,13 @@ Need needed_for(const Curve& curve, double error) {
                      [](const CurvePoint& a, const CurvePoint& b) { return a.cost < b.cost; });
     std::size_t above = points.size();  // the last point with a larger error
     while (above > 0 && points[above - 1].error <= error) --above;
-    if (above == points.size()) return {Need::Kind::more_than, points.back().cost};
+    if (above == points.size()) {
+        const auto slope = fitted_slope(curve);
+        const CurvePoint& last = points.back();
+        if (!slope || *slope > flattest) return {Need::Kind::more_than, last.cost};
+        return {Need::Kind::more_than, last.cost,
+                last.cost * std::pow(error / last.error, 1.0 / *slope)};
+    }
     if (above == 0) return {Need::Kind::at_most, points.front().cost};
     const auto &a = points[above - 1], &b = points[above];
     const double t = std::log(error / a.error) / std::log(b.error / a.error);

@@ -43,15 +43,21 @@ std::vector<Curve> curves_of(const std::vector<StudyRow>& rows, const std::strin
 std::optional<double> fitted_slope(const Curve& curve);
 
 // What a curve needs for an error: at a cost found by interpolation; at most its smallest cost; or
-// more than its largest.
+// more than its largest, and then perhaps `by_slope`: what it would need if it went on from its
+// last run with its fitted slope. That is a guess, and is shown as one.
 struct Need {
-    enum class Kind { at, at_most, more_than } kind = Kind::more_than;
+    enum class Kind { at, at_most, more_than };
+    Kind kind = Kind::more_than;
     double cost = 0.0;
+    std::optional<double> by_slope{};
+
+    // The best guess there is.
+    double guess() const { return by_slope.value_or(cost); }
 };
 
 // Purpose: the cost from which on the curve stays at or below `error`, by interpolation of the
 // logarithms
-//   between the points by cost. Nothing is extrapolated. Requires a point.
+//   between the points by cost. Requires a point.
 Need needed_for(const Curve& curve, double error);
 
 }  // namespace tyndall::cli

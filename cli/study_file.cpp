@@ -35,7 +35,7 @@ std::filesystem::path beside(const Study& study, const std::string& path) {
 
 std::filesystem::path existing_file(const Study& study, const TableReader& reader,
                                     std::string_view key) {
-    const auto path = beside(study, reader.text(key));
+    const auto path = beside(study, reader.text(key)).lexically_normal();
     std::error_code error;
     if (!std::filesystem::is_regular_file(path, error))
         reader.fail(key, fmt::format("{} \"{}\" is not there (looked for '{}'). Give a path "

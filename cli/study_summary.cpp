@@ -49,25 +49,37 @@ std::string percent(double error) {
     return std::isfinite(error) ? fmt::format("{:.3g} %", 100.0 * error) : "";
 }
 
-std::string need_words(const Need& need, int digits) {
+// "850", "30135", "2.1·10⁷".
+std::string cost_words(double cost) {
+    if (cost < 1000.0) return fmt::format("{:.3g}", cost);
+    if (cost < 999999.5) return fmt::format("{:.0f}", cost);
+    const double decade = std::pow(10.0, std::floor(std::log10(cost)));
+    return fmt::format("{:.1f}·{}", cost / decade, tick_text(decade));
+}
+
+std::string need_words(const Need& need) {
     const char* mark = need.kind == Need::Kind::at        ? ""
                        : need.kind == Need::Kind::at_most ? "≤ "
                                                           : "> ";
-    if (need.cost >= 1000.0) return fmt::format("{}{:.0f}", mark, need.cost);
-    return fmt::format("{}{:.{}g}", mark, need.cost, digits);
+    const auto guess = need.by_slope ? " (≈ " + cost_words(*need.by_slope) + ")" : "";
+    return mark + cost_words(need.cost) + guess;
 }
 
-// How many times fewer than `first`; bounds stay bounds.
+// How many times fewer than `first`; bounds stay bounds, guesses guesses.
 std::string times_fewer(const Need& first, const Need& need) {
     using Kind = Need::Kind;
     const double times = first.cost / need.cost;
-    const bool at_least = first.kind == Kind::more_than && need.kind != Kind::more_than;
-    const bool at_least_too = first.kind == Kind::at && need.kind == Kind::at_most;
-    if (at_least || at_least_too) return fmt::format("> {:.3g}", times);
-    const bool at_most = (first.kind == Kind::at && need.kind == Kind::more_than) ||
-                         (first.kind == Kind::at_most && need.kind != Kind::at_most);
-    if (at_most) return fmt::format("< {:.3g}", times);
-    return first.kind == Kind::at && need.kind == Kind::at ? fmt::format("{:.3g}", times) : "";
+    if (first.kind == Kind::at && need.kind == Kind::at) return fmt::format("{:.3g}×", times);
+    std::string bound;
+    if (first.kind != Kind::at_most && need.kind != Kind::more_than)
+        bound = fmt::format("> {:.3g}×", times);
+    if (first.kind != Kind::more_than && need.kind == Kind::more_than)
+        bound = fmt::format("< {:.3g}×", times);
+    const bool guessed = (first.by_slope || first.kind == Kind::at) &&
+                         (need.by_slope || need.kind != Kind::more_than);
+    if (!guessed || first.kind == Kind::at_most) return bound;
+    const auto guess = fmt::format("≈ {:.2g}×", first.guess() / need.guess());
+    return bound.empty() ? guess : bound + ", " + guess;
 }
 
 // One measure's figure: a row a curve, a column an error.
@@ -88,8 +100,8 @@ std::string target_table(const Study& study, const std::vector<Target>& targets,
         const bool is_first = first.emplace(t.error, t.elements).second;
         const auto times = is_first ? "" : times_fewer(first.at(t.error), t.elements);
         line->second +=
-            fmt::format(" {}, {} s{} |", need_words(t.elements, 3), need_words(t.cpu_seconds, 3),
-                        times.empty() ? "" : ", **" + times + "×**");
+            fmt::format(" {}; {} s{} |", need_words(t.elements), need_words(t.cpu_seconds),
+                        times.empty() ? "" : "; **" + times + "**");
     }
     if (lines.empty()) return "";
     auto text = fmt::format("### {}: {}\n\n{}\n{}\n", measure, words_of(figure), head, rule);
@@ -104,7 +116,8 @@ std::string target_tables(const Study& study, const std::vector<StudyRow>& rows)
     std::string text =
         "## Elements for an error\n\nElements and CPU seconds, interpolated on the logarithms; "
         "bold: how many times fewer elements than the first curve. ≤: the curve's first run is "
-        "good enough; >: its last is not.\n\n";
+        "good enough; >: its last is not; ≈: a guess, as if it went on with its fitted "
+        "slope.\n\n";
     for (const auto& measure : study.measures)
         for (const Figure figure : figures_of(measure))
             text += target_table(study, targets, std::string(measure.name()), figure);

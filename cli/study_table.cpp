@@ -75,6 +75,10 @@ std::string need_text(const Need& need) {
     return mark + number_cell(need.cost);
 }
 
+std::string slope_text(const Need& need) {
+    return need.by_slope ? number_cell(*need.by_slope) : "";
+}
+
 Json row_json(const Study& study, const StudyRow& row) {
     Json json;
     const auto keys = axis_keys(study);
@@ -123,11 +127,13 @@ std::vector<Target> targets_of(const Study& study, const std::vector<StudyRow>& 
 }
 
 std::string targets_csv(const std::vector<Target>& targets) {
-    std::string text = "measure,figure,error,curve,elements,cpu_seconds\n";
+    std::string text =
+        "measure,figure,error,curve,elements,cpu_seconds,elements_by_slope,cpu_seconds_by_slope\n";
     for (const auto& t : targets)
-        text += fmt::format("{},{},{:g},{},{},{}\n", t.measure,
+        text += fmt::format("{},{},{:g},{},{},{},{},{}\n", t.measure,
                             figure_names[static_cast<std::size_t>(t.figure)], t.error,
-                            csv_cell(t.curve), need_text(t.elements), need_text(t.cpu_seconds));
+                            csv_cell(t.curve), need_text(t.elements), need_text(t.cpu_seconds),
+                            slope_text(t.elements), slope_text(t.cpu_seconds));
     return text;
 }
 
@@ -140,7 +146,9 @@ std::string study_json(const Study& study, const std::vector<StudyRow>& rows) {
                                    {"error", t.error},
                                    {"curve", t.curve},
                                    {"elements", need_text(t.elements)},
-                                   {"cpu_seconds", need_text(t.cpu_seconds)}});
+                                   {"cpu_seconds", need_text(t.cpu_seconds)},
+                                   {"elements_by_slope", slope_text(t.elements)},
+                                   {"cpu_seconds_by_slope", slope_text(t.cpu_seconds)}});
     return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

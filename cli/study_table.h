@@ -27,9 +27,10 @@ struct Target {
 // Of every measure and figure, in the order of the study's errors and of the curves.
 std::vector<Target> targets_of(const Study& study, const std::vector<StudyRow>& rows);
 
-// Purpose: targets.csv: measure, figure, error, curve, elements, cpu_seconds; a cost stands behind
-// "<=" where
-//   the curve's first run is good enough, behind ">" where its last is not.
+// Purpose: targets.csv: measure, figure, error, curve, elements, cpu_seconds and, as a guess, both
+// by the slope;
+//   a cost stands behind "<=" where the curve's first run is good enough, behind ">" where its last
+//   is not.
 std::string targets_csv(const std::vector<Target>& targets);
 
 // Both tables as one JSON object: rows, targets.

@@ -96,13 +96,16 @@ TEST_CASE("A power law's exponent is found") {
     CHECK(*fitted_slope({"", {{1, 1}, {10, 0.01}, {100, 0.01}}}) == Approx(-1.0));
 }
 
-TEST_CASE("The cost of an error is interpolated, never extrapolated") {
+TEST_CASE("The cost of an error is interpolated; beyond the runs there are bounds and guesses") {
     const Curve curve = power_law(-0.5, {100, 1000, 10000});  // 0.3, 0.095, 0.03
     const Need need = needed_for(curve, 0.05);
     CHECK(need.kind == Need::Kind::at);
     CHECK(need.cost == Approx(3600.0));  // (3 / 0.05)²: exact on a power law
     CHECK(needed_for(curve, 0.02).kind == Need::Kind::more_than);
     CHECK(needed_for(curve, 0.02).cost == 10000.0);
+    CHECK(*needed_for(curve, 0.02).by_slope == Approx(22500.0));            // (3 / 0.02)²
+    CHECK_FALSE(needed_for(power_law(-0.05, {100, 1000}), 0.02).by_slope);  // too flat to say
+    CHECK_FALSE(needed_for(power_law(-0.5, {100}), 0.02).by_slope);
     CHECK(needed_for(curve, 0.5).kind == Need::Kind::at_most);
     CHECK(needed_for(curve, 0.5).cost == 100.0);
     // A dip that does not last does not count; the order of the points does not matter.
@@ -151,7 +154,8 @@ TEST_CASE("Tables have a cell a column in every row") {
     CHECK(json.at("rows")[2].at("zones").is_null());
     CHECK(json.at("targets").size() == 3);
     const auto summary = summary_of(study, rows);
-    CHECK_THAT(summary, Contains("1 of which failed") && Contains("### picture: RMSE") && Contains("| a | 2520, 2.52 s |"));
+    CHECK_THAT(summary, Contains("1 of which failed") && Contains("### picture: RMSE") &&
+                            Contains("| a | 2520; 2.52 s |"));
 }
 
 TEST_CASE("Plots are well-formed, with axes, ticks, units and a legend of slopes") {
