@@ -49,37 +49,41 @@ std::string percent(double error) {
     return std::isfinite(error) ? fmt::format("{:.3g} %", 100.0 * error) : "";
 }
 
-// "850", "30135", "2.1·10⁷".
+// "850", "30135".
 std::string cost_words(double cost) {
-    if (cost < 1000.0) return fmt::format("{:.3g}", cost);
-    if (cost < 999999.5) return fmt::format("{:.0f}", cost);
-    const double decade = std::pow(10.0, std::floor(std::log10(cost)));
-    return fmt::format("{:.1f}·{}", cost / decade, tick_text(decade));
+    return cost < 1000.0 ? fmt::format("{:.3g}", cost) : fmt::format("{:.0f}", cost);
+}
+
+// Two digits, which is more than a guess is good for: "0.85", "3200", "2.1·10⁷".
+std::string guess_words(double value) {
+    const double decade = std::pow(10.0, std::floor(std::log10(value)));
+    const double rounded = 0.1 * std::round(10.0 * value / decade) * decade;
+    if (rounded >= 999'999.5) return fmt::format("{:.1f}·{}", value / decade, tick_text(decade));
+    return rounded < 100.0 ? fmt::format("{:.2g}", value) : fmt::format("{:.0f}", rounded);
 }
 
 std::string need_words(const Need& need) {
     const char* mark = need.kind == Need::Kind::at        ? ""
                        : need.kind == Need::Kind::at_most ? "≤ "
                                                           : "> ";
-    const auto guess = need.by_slope ? " (≈ " + cost_words(*need.by_slope) + ")" : "";
-    return mark + cost_words(need.cost) + guess;
+    return mark + cost_words(need.cost);
 }
 
-// How many times fewer than `first`; bounds stay bounds, guesses guesses.
+// How many times fewer than `first`; bounds that say something stay bounds, guesses guesses.
 std::string times_fewer(const Need& first, const Need& need) {
     using Kind = Need::Kind;
     const double times = first.cost / need.cost;
     if (first.kind == Kind::at && need.kind == Kind::at) return fmt::format("{:.3g}×", times);
-    std::string bound;
-    if (first.kind != Kind::at_most && need.kind != Kind::more_than)
-        bound = fmt::format("> {:.3g}×", times);
-    if (first.kind != Kind::more_than && need.kind == Kind::more_than)
-        bound = fmt::format("< {:.3g}×", times);
-    const bool guessed = (first.by_slope || first.kind == Kind::at) &&
-                         (need.by_slope || need.kind != Kind::more_than);
-    if (!guessed || first.kind == Kind::at_most) return bound;
-    const auto guess = fmt::format("≈ {:.2g}×", first.guess() / need.guess());
-    return bound.empty() ? guess : bound + ", " + guess;
+    std::string words;
+    if (first.kind != Kind::at_most && need.kind != Kind::more_than && times > 1.0)
+        words = fmt::format("> {:.3g}×", times);
+    if (first.kind != Kind::more_than && need.kind == Kind::more_than && times < 1.0)
+        words = fmt::format("< {:.3g}×", times);
+    const bool guessed =
+        (first.by_slope || first.kind == Kind::at) && (need.by_slope || need.kind == Kind::at);
+    if (!guessed) return words;
+    const auto guess = "≈ " + guess_words(first.guess() / need.guess()) + "×";
+    return words.empty() ? guess : words + ", " + guess;
 }
 
 // One measure's figure: a row a curve, a column an error.
@@ -100,8 +104,9 @@ std::string target_table(const Study& study, const std::vector<Target>& targets,
         const bool is_first = first.emplace(t.error, t.elements).second;
         const auto times = is_first ? "" : times_fewer(first.at(t.error), t.elements);
         line->second +=
-            fmt::format(" {}; {} s{} |", need_words(t.elements), need_words(t.cpu_seconds),
-                        times.empty() ? "" : "; **" + times + "**");
+            fmt::format(" {}{}; {} s{} |", need_words(t.elements),
+                        t.elements.by_slope ? " (≈ " + guess_words(*t.elements.by_slope) + ")" : "",
+                        need_words(t.cpu_seconds), times.empty() ? "" : "; **" + times + "**");
     }
     if (lines.empty()) return "";
     auto text = fmt::format("### {}: {}\n\n{}\n{}\n", measure, words_of(figure), head, rule);
