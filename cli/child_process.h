@@ -17,8 +17,7 @@ struct ChildOutcome {
 };
 
 // Purpose: runs `program` with `arguments` (without its own name) and waits for it. Standard input
-// is
-//   empty, standard output goes nowhere, standard error into the file `messages`.
+//   is empty, standard output goes nowhere, standard error into the file `messages`.
 // `keep_on` is called some ten times a second; once it returns false the child is asked to stop
 //   (SIGTERM), and waited for. The child is in a process group of its own, so that Ctrl-C on a
 //   terminal reaches it by this way only; it is told to stop, too, if this process dies.

@@ -9,9 +9,8 @@ namespace tyndall::cli {
 
 // Errors of J in the media and of E on the sides; none where the scene has no such place.
 // Probed: what `tyndall probe` says, direct light in closed form and the rest gathered: how good
-// the
-//   solution is as a set of sources. Held: what the leaves hold, against what the reference says
-//   there by probe: how good the mesh is.
+//   the solution is as a set of sources. Held: what the leaves hold, against what the reference
+//   says there by probe: how good the mesh is.
 struct SolutionErrors {
     std::optional<PointErrors> source, irradiance;
     std::optional<PointErrors> source_held, irradiance_held;
@@ -23,8 +22,7 @@ struct SolutionComparison {
 };
 
 // Purpose: errors at quasi-random points of the reference's scene (sample_points), so that places
-// count by
-//   their capacity, 4 kappa_t volume or area.
+//   count by their capacity, 4 kappa_t volume or area.
 // Errors: mesh::InputError: other bands; a point that lies in no space of the solution.
 // Cost: 4 `points` probes.
 SolutionErrors compare_solutions(const radiosity::Solution& solution,

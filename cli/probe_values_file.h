@@ -14,8 +14,8 @@ struct ProbeValuesFile {
 };
 
 // Purpose: the points and what was found there, from a table under a line of names: x,y,z and J (or
-// J_0,
-//   J_1, … a band), or x,y,z,nx,ny,nz and E (E_0, …), in any order; other columns are passed over.
+//   J_0, J_1, … a band), or x,y,z,nx,ny,nz and E (E_0, …), in any order; other columns are passed
+//   over.
 // Errors: mesh::InputError "file:line: …": a column that lacks, what is no finite number, no row.
 ProbeValuesFile parse_probe_values(std::string_view text, const std::filesystem::path& name);
 

@@ -28,16 +28,14 @@ std::vector<SolutionPoint> sample_points(const radiosity::Enclosure& enclosure, 
 using PointValues = std::vector<radiosity::Spectrum>;
 
 // Purpose: what a probe says at the points (radiosity/probe.h), with the same random numbers at the
-// same
-//   points in every solution.
+//   same points in every solution.
 // Errors: mesh::InputError for a point outside the scene or in a solid. Cost: `rays` walks a point.
 PointValues probed_values(const radiosity::Solution& solution,
                           const std::vector<SolutionPoint>& points, std::size_t rays,
                           const radiosity::ProgressCallback& progress = {});
 
 // Purpose: what the leaf that holds each point holds there, by its linear function. Empty spectra
-// where
-//   there is no leaf. Cost: one walk a point.
+//   where there is no leaf. Cost: one walk a point.
 PointValues held_values(const radiosity::Solution& solution,
                         const std::vector<SolutionPoint>& points);
 

@@ -32,19 +32,17 @@ struct Curve {
 };
 
 // Purpose: the curves of one figure of a measure; rows that failed, and errors that are no positive
-// number,
-//   are left out, curves without a point too.
+//   number, are left out, curves without a point too.
 std::vector<Curve> curves_of(const std::vector<StudyRow>& rows, const std::string& measure,
                              Figure figure, Cost cost);
 
 // Purpose: the exponent p of error ~ cost^p, by least squares of the logarithms. None with fewer
-// than two
-//   different costs.
+//   than two different costs.
 std::optional<double> fitted_slope(const Curve& curve);
 
 // What a curve needs for an error: at a cost found by interpolation; at most its smallest cost; or
-// more than its largest, and then perhaps `by_slope`: what it would need if it went on from its
-// last run with its fitted slope. That is a guess, and is shown as one.
+//   more than its largest, and then perhaps `by_slope`: what it would need if it went on from its
+//   last run with its fitted slope. That is a guess, and is shown as one.
 struct Need {
     enum class Kind { at, at_most, more_than };
     Kind kind = Kind::more_than;
@@ -56,8 +54,7 @@ struct Need {
 };
 
 // Purpose: the cost from which on the curve stays at or below `error`, by interpolation of the
-// logarithms
-//   between the points by cost. Requires a point.
+//   logarithms between the points by cost. Requires a point.
 Need needed_for(const Curve& curve, double error);
 
 }  // namespace tyndall::cli

@@ -86,8 +86,7 @@ struct Study {
 
 // Purpose: reads a study file. Paths in it are relative to it.
 // Errors: mesh::InputError "file:line:column: what is wrong. What to do.". Whether the axes' keys
-// are
-//   known and their values fit shows when the scene is read with them (study_matrix.h).
+//   are known and their values fit shows when the scene is read with them (study_matrix.h).
 Study read_study_file(const std::filesystem::path& path);
 
 // Every key of a study file as Markdown tables: the reference in the documentation.
