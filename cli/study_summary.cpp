@@ -56,10 +56,12 @@ std::string cost_words(double cost) {
 
 // Two digits, which is more than a guess is good for: "0.85", "3200", "2.1·10⁷".
 std::string guess_words(double value) {
-    const double decade = std::pow(10.0, std::floor(std::log10(value)));
-    const double rounded = 0.1 * std::round(10.0 * value / decade) * decade;
-    if (rounded >= 999'999.5) return fmt::format("{:.1f}·{}", value / decade, tick_text(decade));
-    return rounded < 100.0 ? fmt::format("{:.2g}", value) : fmt::format("{:.0f}", rounded);
+    const double unit = 0.1 * std::pow(10.0, std::floor(std::log10(value)));
+    const double rounded = unit * std::round(value / unit);
+    if (rounded < 100.0) return fmt::format("{:.2g}", rounded);
+    if (rounded < 999'999.5) return fmt::format("{:.0f}", rounded);
+    const double decade = std::pow(10.0, std::floor(std::log10(rounded) + 1e-9));
+    return fmt::format("{:.1f}·{}", rounded / decade, tick_text(decade));
 }
 
 std::string need_words(const Need& need) {
