@@ -1,6 +1,7 @@
 #include "mesh/convex_merge.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 #include <unordered_map>
@@ -10,6 +11,7 @@ namespace {
 
 constexpr std::size_t largest_group = 4096;   // triangles that are merged together
 constexpr std::size_t most_candidates = 128;  // lines tried as the next cut
+constexpr double largest_loss = 1e-7;         // of the surface, to tolerances and rounding
 
 // A corner in the plane; `at` is the same point in space, kept bit-exact for input vertices so that
 // neighbours still share it.
@@ -118,38 +120,73 @@ double area(const Part& part) {
     return 0.5 * twice;
 }
 
+double area(const std::vector<Point>& polygon) {
+    Direction twice(0.0);
+    for (std::size_t k = 1; k + 1 < polygon.size(); ++k)
+        twice += glm::cross(polygon[k] - polygon[0], polygon[k + 1] - polygon[0]);
+    return 0.5 * glm::length(twice);
+}
+
 // Whether b can go from the chain a, b, c because it is within `tolerance` of the line a c.
 bool straight(const Corner& a, const Corner& b, const Corner& c, double tolerance) {
     return cross(b.uv - a.uv, c.uv - a.uv) <= tolerance * glm::length(c.uv - a.uv);
 }
 
-// Andrew's monotone chain; corners within `tolerance` of a straight edge are left out. Along edges
-// across the sorting direction rounding may list points out of order: one that falls back between
-// the last two is passed over.
-std::vector<Point> hull(const Cell& cell, double tolerance) {
-    std::vector<Corner> all;
+// A direction that no edge is square to, as far as may be: corners on an edge sort by it in the
+// order they have along the edge, however they round.
+glm::dvec2 sorting_direction(const Cell& cell) {
+    constexpr int tried = 37;
+    glm::dvec2 best(1.0, 0.0);
+    double best_cosine = -1.0;
+    for (int k = 0; k < tried; ++k) {
+        const double angle = 3.14159265358979 * k / tried;
+        const glm::dvec2 direction(std::cos(angle), std::sin(angle));
+        double cosine = 1.0;
+        for (const Part& part : cell)
+            for (std::size_t c = 0; c < part.corners.size() && cosine > best_cosine; ++c) {
+                const auto edge =
+                    part.corners[(c + 1) % part.corners.size()].uv - part.corners[c].uv;
+                if (const double length = glm::length(edge); length > 0.0)
+                    cosine = std::min(cosine, std::abs(glm::dot(edge, direction)) / length);
+            }
+        if (cosine > best_cosine) best = direction, best_cosine = cosine;
+    }
+    return best;
+}
+
+// Corners of all parts in the order along a direction, each once.
+std::vector<Corner> sorted_corners(const Cell& cell, glm::dvec2 along, double tolerance) {
+    std::vector<Corner> all, kept;
     for (const Part& part : cell) all.insert(all.end(), part.corners.begin(), part.corners.end());
-    std::sort(all.begin(), all.end(), [](const Corner& a, const Corner& b) {
-        return a.uv.x != b.uv.x ? a.uv.x < b.uv.x : a.uv.y < b.uv.y;
+    std::sort(all.begin(), all.end(), [&](const Corner& a, const Corner& b) {
+        const double at_a = glm::dot(a.uv, along), at_b = glm::dot(b.uv, along);
+        return at_a != at_b ? at_a < at_b : cross(along, a.uv) < cross(along, b.uv);
     });
+    for (const Corner& c : all) {
+        bool twice = false;
+        for (std::size_t k = kept.size(); k-- > 0 && !twice;) {
+            if (glm::dot(c.uv - kept[k].uv, along) > tolerance) break;
+            twice = glm::length(c.uv - kept[k].uv) <= tolerance;
+        }
+        if (!twice) kept.push_back(c);
+    }
+    return kept;
+}
+
+// Andrew's monotone chain; corners within `tolerance` of a straight edge are left out.
+std::vector<Point> hull(const Cell& cell, double tolerance) {
+    const auto all = sorted_corners(cell, sorting_direction(cell), tolerance);
     std::vector<Corner> chain;
     const auto extend = [&](const Corner& c, std::size_t base) {
-        if (!chain.empty() && glm::length(c.uv - chain.back().uv) <= tolerance) return;
-        while (chain.size() >= base + 2) {
-            const Corner &a = chain[chain.size() - 2], &b = chain.back();
-            if (!straight(a, b, c, tolerance)) break;
-            const bool on_line =
-                std::abs(cross(b.uv - a.uv, c.uv - a.uv)) <= tolerance * glm::length(b.uv - a.uv);
-            if (on_line && glm::dot(c.uv - b.uv, b.uv - a.uv) < 0.0) return;
+        while (chain.size() >= base + 2 &&
+               straight(chain[chain.size() - 2], chain.back(), c, tolerance))
             chain.pop_back();
-        }
         chain.push_back(c);
     };
     for (const Corner& c : all) extend(c, 0);
     const std::size_t lower = chain.size() - 1;
-    for (std::size_t k = all.size(); k-- > 0;) extend(all[k], lower);
-    while (chain.size() > 1 && glm::length(chain.back().uv - chain.front().uv) <= tolerance)
-        chain.pop_back();
+    for (std::size_t k = all.size() - 1; k-- > 0;) extend(all[k], lower);
+    if (chain.size() > 1) chain.pop_back();  // the first once more
     std::vector<Point> corners;
     for (std::size_t k = 0, n = chain.size(); k < n; ++k)  // straight where the two chains meet
         if (!straight(chain[(k + n - 1) % n], chain[k], chain[(k + 1) % n], tolerance))
@@ -261,7 +298,12 @@ class Merger {
             cell.push_back(std::move(part));
         }
         std::vector<std::vector<Point>> hulls;
-        if (!convexify(cell, tolerance_, members.size(), hulls)) {
+        double merged = 0.0, whole = 0.0;
+        const bool convex = convexify(cell, tolerance_, members.size(), hulls);
+        for (const Part& part : cell) whole += area(part);
+        for (const auto& corners : hulls) merged += area(corners);
+        // A hole would let light through: rather the triangles.
+        if (!convex || std::abs(merged - whole) > largest_loss * whole) {
             hulls.clear();
             for (const Part& part : cell)
                 hulls.push_back({part.corners[0].at, part.corners[1].at, part.corners[2].at});

@@ -80,6 +80,7 @@ float Forest::edge_bound(const VertexId* corners, int count) const {
 }
 
 VertexId Forest::vertex_on_edge(VertexId a, VertexId b, double t) {
+    t = place(t);
     if (b < a) {
         std::swap(a, b);
         t = 1.0 - t;
@@ -88,6 +89,7 @@ VertexId Forest::vertex_on_edge(VertexId a, VertexId b, double t) {
     if (made) {
         points_.push_back(point(a) + t * (point(b) - point(a)));
         carriers_.push_back(join(carrier(a), carrier(b)));
+        vertex_edges_.push_back({a, b, t});
     }
     return entry->second;
 }
@@ -126,6 +128,7 @@ ZoneId Forest::bisect(ZoneId zone, int i, int j, double t) {
     std::array<Point, 2> others;
     for (int k = 0, n = 0; k < 4; ++k)
         if (k != i && k != j) others[n++] = point(corners[k]);
+    t = place(t);
     const Point a = point(corners[i]), b = point(corners[j]);
     const Point middle = a + t * (b - a);
     history_.push_back({zone.value, std::uint8_t(i), std::uint8_t(j), t});
@@ -135,6 +138,7 @@ ZoneId Forest::bisect(ZoneId zone, int i, int j, double t) {
 
 PatchId Forest::bisect(PatchId patch, int i, int j, double t) {
     const auto& c = patches_[patch.value].corners;
+    t = place(t);
     const Point a = point(c[i]), b = point(c[j]), apex = point(c[3 - i - j]);
     const auto face = glm::cross(point(c[1]) - point(c[0]), point(c[2]) - point(c[0]));
     const Point middle = a + t * (b - a);
@@ -150,14 +154,6 @@ void Forest::replay(const std::vector<Bisection>& history) {
         else
             bisect(ZoneId(step.node), step.i, step.j, step.t);
     }
-}
-
-std::vector<Forest::VertexEdge> Forest::vertex_edges() const {
-    const std::size_t base = points_.size() - edge_vertices_.size();
-    std::vector<VertexEdge> edges(edge_vertices_.size());
-    for (const auto& [key, vertex] : edge_vertices_)
-        edges[vertex.value - base] = {key.a, key.b, key.t};
-    return edges;
 }
 
 Point Forest::centroid(ZoneId id) const {
@@ -211,7 +207,8 @@ ZoneId Forest::leaf_at(ZoneId zone, Point x) const {
 std::size_t Forest::memory() const {
     return points_.capacity() * (sizeof(Point) + sizeof(Carrier)) +
            zones_.capacity() * (sizeof(ZoneNode) + 4) +
-           patches_.capacity() * (sizeof(PatchNode) + 4) + edge_vertices_.size() * 48 +
+           patches_.capacity() * (sizeof(PatchNode) + 4) +
+           edge_vertices_.size() * (48 + sizeof(VertexEdge)) +
            history_.capacity() * sizeof(Bisection);
 }
 

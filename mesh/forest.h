@@ -60,11 +60,15 @@ class Forest {
 
     // Bisects the edge between corners i and j of a leaf at corner_i + t (corner_j − corner_i).
     // The first child keeps corner i, the second corner j. Returns the first child.
+    // Everywhere t is taken as place(t).
     ZoneId bisect(ZoneId zone, int i, int j, double t = 0.5);
     PatchId bisect(PatchId patch, int i, int j, double t = 0.5);
 
     // The vertex on an edge, made if it does not exist: tets and triangles around an edge share it.
     VertexId vertex_on_edge(VertexId a, VertexId b, double t = 0.5);
+    // t to a multiple of 2^-52. Then 1 − t is exact and 1 − (1 − t) is t, so that an edge has the
+    // same vertex from either end. Whoever computes a t must still do so from the same end always.
+    static double place(double t) { return (1.0 + t) - 1.0; }
 
     const ZoneNode& operator[](ZoneId id) const { return zones_[id.value]; }
     const PatchNode& operator[](PatchId id) const { return patches_[id.value]; }
@@ -110,7 +114,7 @@ class Forest {
         VertexId a, b;
         double t;
     };
-    std::vector<VertexEdge> vertex_edges() const;
+    const std::vector<VertexEdge>& vertex_edges() const { return vertex_edges_; }
 
   private:
     float edge_bound(const VertexId* corners, int count) const;
@@ -132,6 +136,7 @@ class Forest {
         std::size_t operator()(const EdgeKey& key) const noexcept;
     };
     std::unordered_map<EdgeKey, VertexId, EdgeHash> edge_vertices_;
+    std::vector<VertexEdge> vertex_edges_;
     std::vector<Bisection> history_;
 };
 

@@ -56,6 +56,18 @@ struct Piece {
         if (face.is_valid()) mesh.data(face).id = id.value;
         return face;
     }
+
+    // The face's own half of the edge between two of its vertices.
+    OpenMesh::HalfedgeHandle edge_of(OpenMesh::FaceHandle face, VertexId a, VertexId b) const {
+        const auto joins = [&](OpenMesh::HalfedgeHandle h) {
+            const VertexId from(mesh.data(mesh.from_vertex_handle(h)).id);
+            const VertexId to(mesh.data(mesh.to_vertex_handle(h)).id);
+            return (from == a && to == b) || (from == b && to == a);
+        };
+        auto edge = mesh.halfedge_handle(face);
+        while (!joins(edge)) edge = mesh.next_halfedge_handle(edge);
+        return edge;
+    }
 };
 
 struct Place {
@@ -70,8 +82,9 @@ struct SurfaceMeshes::Meshes {
     std::vector<Place> places;  // of each patch node that is a leaf
 
     void insert(const Forest& forest, PatchId id, std::uint32_t& first, std::uint32_t& last);
+    // `t`: from the edge's lower vertex to its higher one.
     void split(Forest& forest, Piece& piece, std::uint32_t index, OpenMesh::HalfedgeHandle edge,
-               std::vector<PatchId>* made);
+               double t, std::vector<PatchId>* made);
 };
 
 // Tries the group's pieces in turn, opens a new one when none accepts.
@@ -107,11 +120,12 @@ SurfaceMeshes::~SurfaceMeshes() = default;
 
 // Splits an edge and the one or two triangles on it, in the OpenMesh and in the forest alike.
 void SurfaceMeshes::Meshes::split(Forest& forest, Piece& piece, std::uint32_t index,
-                                  OpenMesh::HalfedgeHandle edge, std::vector<PatchId>* made) {
+                                  OpenMesh::HalfedgeHandle edge, double t,
+                                  std::vector<PatchId>* made) {
     TriMesh& mesh = piece.mesh;
     const VertexId a(mesh.data(mesh.from_vertex_handle(edge)).id);
     const VertexId b(mesh.data(mesh.to_vertex_handle(edge)).id);
-    const VertexId middle = forest.vertex_on_edge(std::min(a, b), std::max(a, b));
+    const VertexId middle = forest.vertex_on_edge(std::min(a, b), std::max(a, b), t);
 
     std::vector<PatchId> children;
     for (const auto half : {edge, mesh.opposite_halfedge_handle(edge)}) {
@@ -123,7 +137,7 @@ void SurfaceMeshes::Meshes::split(Forest& forest, Piece& piece, std::uint32_t in
             int(std::find(corners.begin(), corners.end(), std::min(a, b)) - corners.begin());
         const int j =
             int(std::find(corners.begin(), corners.end(), std::max(a, b)) - corners.begin());
-        const PatchId first = forest.bisect(patch, i, j);
+        const PatchId first = forest.bisect(patch, i, j, t);
         places[patch.value] = Place{};
         children.push_back(first);
         children.push_back(PatchId(first.value + 1ull));
@@ -159,13 +173,7 @@ void SurfaceMeshes::refine(Forest& forest, PatchId patch, std::vector<PatchId>* 
         const auto [i, j] = forest.longest_edge(patch);
         const auto& corners = forest[patch].corners;
         const VertexId a = corners[i], b = corners[j];
-        auto edge = piece.mesh.halfedge_handle(place.face);
-        const auto is_longest = [&](OpenMesh::HalfedgeHandle h) {
-            const VertexId from(piece.mesh.data(piece.mesh.from_vertex_handle(h)).id);
-            const VertexId to(piece.mesh.data(piece.mesh.to_vertex_handle(h)).id);
-            return (from == a && to == b) || (from == b && to == a);
-        };
-        while (!is_longest(edge)) edge = piece.mesh.next_halfedge_handle(edge);
+        const auto edge = piece.edge_of(place.face, a, b);
 
         const auto beyond = piece.mesh.face_handle(piece.mesh.opposite_halfedge_handle(edge));
         if (beyond.is_valid()) {
@@ -178,8 +186,19 @@ void SurfaceMeshes::refine(Forest& forest, PatchId patch, std::vector<PatchId>* 
                 continue;
             }
         }
-        meshes_->split(forest, piece, place.piece, edge, made);
+        meshes_->split(forest, piece, place.piece, edge, 0.5, made);
     }
+}
+
+void SurfaceMeshes::split(Forest& forest, PatchId patch, int i, int j, double t,
+                          std::vector<PatchId>* made) {
+    const Place place = meshes_->places[patch.value];
+    if (place.piece == no_group) return;
+    Piece& piece = *meshes_->pieces[place.piece];
+    const VertexId a = forest[patch].corners[i], b = forest[patch].corners[j];
+    t = Forest::place(t);
+    meshes_->split(forest, piece, place.piece, piece.edge_of(place.face, a, b), a < b ? t : 1.0 - t,
+                   made);
 }
 
 std::array<PatchId, 3> SurfaceMeshes::neighbours(const Forest& forest, PatchId patch) const {

@@ -24,6 +24,11 @@ class SurfaceMeshes {
     // Cost: O(1) amortised. Source: Rivara (1984), longest-edge propagation.
     void refine(Forest& forest, PatchId patch, std::vector<PatchId>* made = nullptr);
 
+    // Bisects a leaf at corner_i + t (corner_j − corner_i), and with it the triangle beyond that
+    // edge.
+    void split(Forest& forest, PatchId patch, int i, int j, double t,
+               std::vector<PatchId>* made = nullptr);
+
     // The leaves across the edges of a leaf, opposite its corners; none at a border.
     std::array<PatchId, 3> neighbours(const Forest& forest, PatchId patch) const;
 

@@ -1,5 +1,6 @@
 #include "radiosity/element_mesh.h"
 
+#include <algorithm>
 #include <queue>
 
 namespace tyndall::radiosity {
@@ -11,6 +12,11 @@ std::vector<std::uint32_t> surface_groups(const Enclosure& enclosure) {
         groups.insert(groups.end(), {sides[0], sides[1]});
     return groups;
 }
+
+// Samples beside a plane step into their element by this share of the way to its centroid.
+constexpr double step_aside = 1e-5;
+// Planes a vertex can be marked with; it would take many shadows that end in one point.
+constexpr std::size_t most_marks = 30;
 
 }  // namespace
 
@@ -28,7 +34,11 @@ ElementMesh::ElementMesh(const Enclosure& enclosure)
 }
 
 void ElementMesh::bisect(ZoneId zone, std::array<int, 2> edge) {
-    const ZoneId first = forest_.bisect(zone, edge[0], edge[1]);
+    bisect(zone, edge, 0.5);
+}
+
+void ElementMesh::bisect(ZoneId zone, std::array<int, 2> edge, double t) {
+    const ZoneId first = forest_.bisect(zone, edge[0], edge[1], t);
     zones_.push_back(first);
     zones_.push_back(ZoneId(first.value + 1ull));
     ++zone_leaves_;
@@ -39,6 +49,83 @@ void ElementMesh::bisect(PatchId patch) {
     surfaces_.refine(forest_, patch, &patches_);
     patch_leaves_ += (patches_.size() - before) / 2;
 }
+
+void ElementMesh::bisect(PatchId patch, std::array<int, 2> edge, double t) {
+    const std::size_t before = patches_.size();
+    surfaces_.split(forest_, patch, edge[0], edge[1], t, &patches_);
+    patch_leaves_ += (patches_.size() - before) / 2;
+}
+
+void ElementMesh::mark(VertexId vertex, std::uint32_t plane_index, const ShadowPlane& plane) {
+    Marks& marks = marks_[vertex.value];
+    if (marks.size() >= most_marks) return;
+    if (std::find(marks.begin(), marks.end(), plane_index) != marks.end()) return;
+    marks.push_back(plane_index);
+    mark_planes_.try_emplace(plane_index, plane);
+}
+
+SampleId ElementMesh::sample(ZoneId zone, VertexId vertex, std::uint32_t sides, Point x) {
+    const TetId tet = forest_.base_tet(zone);
+    return sides == 0 ? samples_.in_zone(vertex, tet) : samples_.in_zone(vertex, tet, sides, x);
+}
+
+SampleId ElementMesh::sample(PatchId patch, VertexId vertex, std::uint32_t sides, Point x) {
+    const auto side = forest_.base_facet_side(patch);
+    return sides == 0 ? samples_.on_patch(vertex, side) : samples_.on_patch(vertex, side, sides, x);
+}
+
+// The sample on the side of the node's centroid: moved towards it until it is on that side of all
+// marked planes, which a vertex that is not quite on them may not be.
+template <class Node>
+SampleId ElementMesh::lit(Node node, VertexId vertex, const Marks& marks) {
+    const Point x = forest_.point(vertex);
+    if (marks.empty()) return sample(node, vertex, 0, x);
+    const Point centroid = forest_.centroid(node);
+    std::uint32_t sides = 1;
+    double step = step_aside;
+    for (const std::uint32_t mark : marks) {
+        const ShadowPlane& plane = mark_planes_.at(mark);
+        const double there = plane.at(centroid), here = plane.at(x);
+        sides = sides << 1 | (there > 0.0);
+        if (here * there < 0.0) step = std::max(step, 1.001 * here / (here - there) + step_aside);
+    }
+    return sample(node, vertex, sides, x + std::min(step, 0.5) * (centroid - x));
+}
+
+template <std::size_t count, class Node>
+std::array<SampleId, count> ElementMesh::lit_corners_of(Node node) {
+    static const Marks unmarked;
+    const auto vertices = forest_[node].corners;
+    std::array<SampleId, count> result;
+    for (std::size_t k = 0; k < count; ++k) {
+        const auto marks = marks_.find(vertices[k].value);
+        result[k] = lit(node, vertices[k], marks == marks_.end() ? unmarked : marks->second);
+    }
+    return result;
+}
+
+template <class Node>
+SampleId ElementMesh::lit_middle_of(Node node, int i, int j) {
+    const auto& vertices = forest_[node].corners;
+    const VertexId a = vertices[i], b = vertices[j], middle = forest_.vertex_on_edge(a, b);
+    const auto of_a = marks_.find(a.value), of_b = marks_.find(b.value);
+    // What both ends lie on the middle lies on, too.
+    if (of_a != marks_.end() && of_b != marks_.end()) {
+        const Marks &first = of_a->second, &second = of_b->second;
+        Marks both;
+        std::copy_if(first.begin(), first.end(), std::back_inserter(both), [&](std::uint32_t m) {
+            return std::find(second.begin(), second.end(), m) != second.end();
+        });
+        for (const std::uint32_t m : both) mark(middle, m, mark_planes_.at(m));
+    }
+    const auto marks = marks_.find(middle.value);
+    return lit(node, middle, marks == marks_.end() ? Marks{} : marks->second);
+}
+
+template std::array<SampleId, 4> ElementMesh::lit_corners_of<4>(ZoneId);
+template std::array<SampleId, 3> ElementMesh::lit_corners_of<3>(PatchId);
+template SampleId ElementMesh::lit_middle_of(ZoneId, int, int);
+template SampleId ElementMesh::lit_middle_of(PatchId, int, int);
 
 std::array<SampleId, 4> ElementMesh::corners(ZoneId zone) {
     const auto vertices = forest_[zone].corners;

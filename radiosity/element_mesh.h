@@ -3,6 +3,7 @@
 
 #include "mesh/surface_mesh.h"
 #include "radiosity/samples.h"
+#include "radiosity/shadow_boundaries.h"
 
 namespace tyndall::radiosity {
 
@@ -25,8 +26,22 @@ class ElementMesh {
 
     void bisect(ZoneId zone, std::array<int, 2> edge);
     void bisect(PatchId patch);  // its longest edge, with the neighbours that conformity asks for
+    // The edge between two corners at corner_i + t (corner_j − corner_i); with a patch the one
+    // beyond the edge.
+    void bisect(ZoneId zone, std::array<int, 2> edge, double t);
+    void bisect(PatchId patch, std::array<int, 2> edge, double t);
 
-    // Samples at the corners, and at the middle of the edge between corners i and j.
+    // Direct light jumps at a vertex across a plane: from now on elements on either side have
+    // samples of their own there.
+    void mark(VertexId vertex, std::uint32_t plane_index, const ShadowPlane& plane);
+    // Samples of direct light at the corners, and at the middle of the edge between corners i and
+    // j: on the element's own side of marked planes.
+    std::array<SampleId, 4> lit_corners(ZoneId zone) { return lit_corners_of<4>(zone); }
+    std::array<SampleId, 3> lit_corners(PatchId patch) { return lit_corners_of<3>(patch); }
+    SampleId lit_middle(ZoneId zone, int i, int j) { return lit_middle_of(zone, i, j); }
+    SampleId lit_middle(PatchId patch, int i, int j) { return lit_middle_of(patch, i, j); }
+
+    // Samples of all other light, which does not jump.
     std::array<SampleId, 4> corners(ZoneId zone);
     std::array<SampleId, 3> corners(PatchId patch);
     SampleId middle(ZoneId zone, int i, int j);
@@ -42,6 +57,16 @@ class ElementMesh {
     std::size_t memory() const { return forest_.memory() + samples_.memory(); }
 
   private:
+    using Marks = std::vector<std::uint32_t>;  // plane indices, in the order they were set
+    template <std::size_t count, class Node>
+    std::array<SampleId, count> lit_corners_of(Node node);
+    template <class Node>
+    SampleId lit_middle_of(Node node, int i, int j);
+    template <class Node>
+    SampleId lit(Node node, VertexId vertex, const Marks& marks);
+    SampleId sample(ZoneId zone, VertexId vertex, std::uint32_t sides, Point x);
+    SampleId sample(PatchId patch, VertexId vertex, std::uint32_t sides, Point x);
+
     const Enclosure& enclosure_;
     Forest forest_;
     mesh::SurfaceMeshes surfaces_;
@@ -49,6 +74,8 @@ class ElementMesh {
     std::vector<ZoneId> zones_;
     std::vector<PatchId> patches_;
     std::size_t zone_leaves_ = 0, patch_leaves_ = 0;
+    std::unordered_map<std::uint32_t, Marks> marks_;              // of vertices
+    std::unordered_map<std::uint32_t, ShadowPlane> mark_planes_;  // by plane index
 };
 
 }  // namespace tyndall::radiosity

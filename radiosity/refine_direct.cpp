@@ -39,18 +39,23 @@ class Departures {
 // never one much shorter than the longest, so that slivers do not run away.
 constexpr double shortest_bisected = 0.35;
 
+// Of an element's error: a jump that makes up less is not what it has to be cut for.
+constexpr double least_jump = 0.3;
+
 }  // namespace
 
 DirectRefiner::DirectRefiner(const Enclosure& enclosure, ElementMesh& mesh,
-                             const DirectLight& light)
-    : enclosure_(enclosure), mesh_(mesh), light_(light), bands_(enclosure.bands) {}
+                             const DirectLight& light, const ShadowBoundaries* boundaries)
+    : enclosure_(enclosure), mesh_(mesh), light_(light), bands_(enclosure.bands) {
+    if (boundaries) cuts_.emplace(enclosure, *boundaries, mesh, light);
+}
 
 template <class Node>
 void DirectRefiner::measure(Node node, std::vector<float>& errors, std::vector<std::uint8_t>& edges,
                             const std::vector<double>& centroid) {
     const Forest& forest = mesh_.forest();
     const SampleSet& samples = mesh_.samples();
-    const auto corner = mesh_.corners(node);
+    const auto corner = mesh_.lit_corners(node);
     const int count = static_cast<int>(corner.size());
     const auto& vertices = forest[node].corners;
     const auto longest = forest.longest_edge(node);
@@ -64,7 +69,7 @@ void DirectRefiner::measure(Node node, std::vector<float>& errors, std::vector<s
     }
     for (int i = 0; i < count; ++i)
         for (int j = i + 1; j < count; ++j) {
-            const SampleId middle = mesh_.middle(node, i, j);
+            const SampleId middle = mesh_.lit_middle(node, i, j);
             double error = 0.0;
             for (std::size_t b = 0; b < bands_; ++b)
                 error += std::abs(departures.add(
@@ -93,15 +98,23 @@ void DirectRefiner::update() {
     for (; patches_done_ < mesh_.patches().size(); ++patches_done_)
         if (const PatchId p = mesh_.patches()[patches_done_]; forest.is_leaf(p))
             patches.push_back(p);
+    if (cuts_) cuts_->update(zones, patches);
     for (const ZoneId z : zones) {
-        mesh_.corners(z);
+        mesh_.lit_corners(z);
         for (int i = 0; i < 4; ++i)
-            for (int j = i + 1; j < 4; ++j) mesh_.middle(z, i, j);
+            for (int j = i + 1; j < 4; ++j) mesh_.lit_middle(z, i, j);
     }
     for (const PatchId p : patches) {
-        mesh_.corners(p);
+        mesh_.lit_corners(p);
         for (int i = 0; i < 3; ++i)
-            for (int j = i + 1; j < 3; ++j) mesh_.middle(p, i, j);
+            for (int j = i + 1; j < 3; ++j) mesh_.lit_middle(p, i, j);
+    }
+    if (cuts_) {
+        // A corner that has been marked since has other samples.
+        for (const ZoneId z : mesh_.zones())
+            if (forest.is_leaf(z)) mesh_.lit_corners(z);
+        for (const PatchId p : mesh_.patches())
+            if (forest.is_leaf(p)) mesh_.lit_corners(p);
     }
     mesh_.samples().light(light_);
 
@@ -127,39 +140,56 @@ void DirectRefiner::update() {
     for (const PatchId p : patches) measure(p, patch_error_, patch_edge_, patch_centroid_);
 }
 
+// The squared error that remains, and the elements that share in it.
+double DirectRefiner::collect(const Importance& importance, const RefineLimits& limits,
+                              std::vector<Candidate>& candidates) const {
+    const Forest& forest = mesh_.forest();
+    candidates.clear();
+    double sum = 0.0;
+    const auto add = [&](auto node, double error, double jump, double scatter, double weight) {
+        const double worst = std::max(error, jump);
+        const double share = weight * scatter * scatter * worst * worst;
+        if (share == 0.0) return;
+        sum += share;
+        if (forest[node].longest_edge > limits.smallest_edge)
+            candidates.push_back({share, node.value, std::is_same_v<decltype(node), ZoneId>,
+                                  jump > least_jump * worst});
+    };
+    for (const ZoneId z : mesh_.zones())
+        if (forest.is_leaf(z)) {
+            const auto& optics = enclosure_.media[medium_of(enclosure_, forest, z)];
+            add(z, zone_error_[z.value], cuts_ ? cuts_->error(z) : 0.0,
+                mean_over_bands(optics.albedo), importance.of(z));
+        }
+    for (const PatchId p : mesh_.patches())
+        if (forest.is_leaf(p)) {
+            const auto& side = enclosure_.sides[side_of(enclosure_, forest, p)];
+            add(p, patch_error_[p.value], cuts_ ? cuts_->error(p) : 0.0,
+                mean_over_bands(side.reflectance), seen_patch_share * importance.of(p));
+        }
+    return sum;
+}
+
+void DirectRefiner::bisect(const Candidate& candidate, std::size_t max_leaves) {
+    if (candidate.is_zone) {
+        const ZoneId zone(candidate.index);
+        if (candidate.to_cut && cuts_->cut(zone, max_leaves)) return;
+        const auto edge = zone_edge_[zone.value];
+        mesh_.bisect(zone, {edge / 4, edge % 4});
+    } else if (const PatchId patch(candidate.index); mesh_.forest().is_leaf(patch)) {
+        if (candidate.to_cut && cuts_->cut(patch, max_leaves)) return;
+        mesh_.bisect(patch);
+    }
+}
+
 RefineResult DirectRefiner::refine(const Importance& importance, double goal,
                                    const RefineLimits& limits, const ProgressCallback& progress) {
     RefineResult result;
-    const Forest& forest = mesh_.forest();
-    struct Candidate {
-        double share;
-        std::uint32_t index;
-        bool is_zone;
-    };
     std::vector<Candidate> candidates;
     double first = 0.0;
     for (;;) {
         update();
-        candidates.clear();
-        result.squared_error = 0.0;
-        for (const ZoneId z : mesh_.zones()) {
-            if (!forest.is_leaf(z) || zone_error_[z.value] == 0.0f) continue;
-            const auto& optics = enclosure_.media[medium_of(enclosure_, forest, z)];
-            const double error = mean_over_bands(optics.albedo) * zone_error_[z.value];
-            const double share = importance.of(z) * error * error;
-            result.squared_error += share;
-            if (forest[z].longest_edge > limits.smallest_edge)
-                candidates.push_back({share, z.value, true});
-        }
-        for (const PatchId p : mesh_.patches()) {
-            if (!forest.is_leaf(p) || patch_error_[p.value] == 0.0f) continue;
-            const auto& side = enclosure_.sides[side_of(enclosure_, forest, p)];
-            const double error = mean_over_bands(side.reflectance) * patch_error_[p.value];
-            const double share = seen_patch_share * importance.of(p) * error * error;
-            result.squared_error += share;
-            if (forest[p].longest_edge > limits.smallest_edge)
-                candidates.push_back({share, p.value, false});
-        }
+        result.squared_error = collect(importance, limits, candidates);
         if (first == 0.0) first = result.squared_error;
         const double gone = first > goal && result.squared_error > 0.0
                                 ? std::log(first / result.squared_error) / std::log(first / goal)
@@ -170,7 +200,8 @@ RefineResult DirectRefiner::refine(const Importance& importance, double goal,
             return result;
         }
         if (result.squared_error <= goal) return result;
-        if (mesh_.leaf_count() >= limits.max_elements || mesh_.memory() > limits.max_memory) {
+        const std::size_t memory = mesh_.memory() + (cuts_ ? cuts_->memory() : 0);
+        if (mesh_.leaf_count() >= limits.max_elements || memory > limits.max_memory) {
             result.limited = true;
             return result;
         }
@@ -185,25 +216,20 @@ RefineResult DirectRefiner::refine(const Importance& importance, double goal,
         });
         for (const Candidate& c : candidates) {
             if (mesh_.leaf_count() >= limits.max_elements) break;
-            if (c.is_zone) {
-                const auto edge = zone_edge_[c.index];
-                mesh_.bisect(ZoneId(c.index), {edge / 4, edge % 4});
-            } else if (forest.is_leaf(PatchId(c.index))) {
-                mesh_.bisect(PatchId(c.index));
-            }
+            bisect(c, limits.max_elements);
         }
     }
 }
 
 double DirectRefiner::mean(ZoneId zone, std::size_t band) {
     double sum = 0.0;
-    for (const SampleId id : mesh_.corners(zone)) sum += mesh_.samples().direct(id, band);
+    for (const SampleId id : mesh_.lit_corners(zone)) sum += mesh_.samples().direct(id, band);
     return 0.05 * sum + 0.8 * zone_centroid_[zone.value * bands_ + band];
 }
 
 double DirectRefiner::mean(PatchId patch, std::size_t band) {
     double sum = 0.0;
-    for (const SampleId id : mesh_.corners(patch)) sum += mesh_.samples().direct(id, band);
+    for (const SampleId id : mesh_.lit_corners(patch)) sum += mesh_.samples().direct(id, band);
     return sum / 12.0 + 0.75 * patch_centroid_[patch.value * bands_ + band];
 }
 

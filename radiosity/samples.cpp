@@ -2,6 +2,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include <cmath>
+
 namespace tyndall::radiosity {
 namespace {
 
@@ -15,6 +17,13 @@ std::size_t dimension(const mesh::Carrier& carrier) {
     return n - 1;
 }
 
+// The same for points on parallel planes that face the same way, to rounding.
+std::uint64_t plane_seed(std::uint64_t seed, Direction normal) {
+    for (int axis = 0; axis < 3; ++axis)
+        seed = hash_seed(seed, static_cast<std::uint64_t>(std::llround(1e3 * normal[axis])));
+    return seed;
+}
+
 }  // namespace
 
 SampleSet::SampleSet(const Enclosure& enclosure, const Forest& forest)
@@ -23,7 +32,7 @@ SampleSet::SampleSet(const Enclosure& enclosure, const Forest& forest)
 SampleId SampleSet::in_zone(VertexId vertex, TetId tet) {
     const auto& carrier = forest_.carrier(vertex);
     const TetId fan = fans_.of_tet(carrier, tet);
-    const auto [entry, made] = ids_.try_emplace({vertex, fan.value}, SampleId(points_.size()));
+    const auto [entry, made] = ids_.try_emplace({vertex, fan.value, 0}, SampleId(points_.size()));
     if (made) {
         GatherPoint point;
         point.x = forest_.point(vertex);
@@ -35,21 +44,49 @@ SampleId SampleSet::in_zone(VertexId vertex, TetId tet) {
     return entry->second;
 }
 
+SampleId SampleSet::in_zone(VertexId vertex, TetId tet, std::uint32_t sides, Point x) {
+    const TetId fan = fans_.of_tet(forest_.carrier(vertex), tet);
+    const auto [entry, made] =
+        ids_.try_emplace({vertex, fan.value, sides}, SampleId(points_.size()));
+    if (made) {
+        GatherPoint point;
+        point.x = x;
+        point.start = {tet};
+        points_.push_back(point);
+    }
+    return entry->second;
+}
+
+GatherPoint SampleSet::on_side(PatchId root) const {
+    const FacetId facet(root.value / 2);
+    GatherPoint point;
+    point.start = mesh::start_on(enclosure_.mesh, facet, root.value % 2 ? Side::back : Side::front);
+    point.normal = normal_of(forest_, root);
+    return point;
+}
+
 SampleId SampleSet::on_patch(VertexId vertex, std::uint32_t facet_side) {
     const auto& carrier = forest_.carrier(vertex);
-    const std::uint32_t fan = fans_.of_facet_side(carrier, facet_side);
+    const PatchId fan(fans_.of_facet_side(carrier, facet_side));
     const auto [entry, made] =
-        ids_.try_emplace({vertex, fan | 0x80000000u}, SampleId(points_.size()));
+        ids_.try_emplace({vertex, fan.value | 0x80000000u, 0}, SampleId(points_.size()));
     if (made) {
-        const FacetId facet(fan / 2);
-        const Side side = fan % 2 ? Side::back : Side::front;
-        const PatchId root = mesh::root_patch(facet, side);
-        GatherPoint point;
+        GatherPoint point = on_side(fan);
         point.x = forest_.point(vertex);
-        point.start = mesh::start_on(enclosure_.mesh, facet, side);
-        point.normal = normal_of(forest_, root);
-        if (dimension(carrier) < 2) point.x += step_inside * (forest_.centroid(root) - point.x);
+        if (dimension(carrier) < 2) point.x += step_inside * (forest_.centroid(fan) - point.x);
         points_.push_back(point);
+    }
+    return entry->second;
+}
+
+SampleId SampleSet::on_patch(VertexId vertex, std::uint32_t facet_side, std::uint32_t sides,
+                             Point x) {
+    const std::uint32_t fan = fans_.of_facet_side(forest_.carrier(vertex), facet_side);
+    const auto [entry, made] =
+        ids_.try_emplace({vertex, fan | 0x80000000u, sides}, SampleId(points_.size()));
+    if (made) {
+        points_.push_back(on_side(PatchId(facet_side)));
+        points_.back().x = x;
     }
     return entry->second;
 }
@@ -68,21 +105,31 @@ void SampleSet::light(const DirectLight& light) {
 }
 
 std::size_t SampleSet::gather_at(const std::vector<SampleId>& ids, const GatherScene& scene,
-                                 const PointSet& points, std::uint64_t seed) {
+                                 const LitPatches* lit, const PointSet& on_surfaces,
+                                 const PointSet& in_zones, std::uint64_t seed) {
     indirect_.resize(points_.size() * bands_);
     gathered_.resize(points_.size());
     std::vector<SampleId> missing;
+    std::size_t rays = 0;
     for (const SampleId id : ids) {
         if (gathered_[id.value]) continue;
         gathered_[id.value] = true;
         missing.push_back(id);
+        rays += (points_[id.value].on_surface() ? on_surfaces : in_zones).size();
     }
     tbb::parallel_for(std::size_t(0), missing.size(), [&](std::size_t k) {
         const std::size_t i = missing[k].value;
-        gather(scene, points_[i], points, seed,
-               std::span<Gathered>(indirect_.data() + i * bands_, bands_));
+        const GatherPoint& point = points_[i];
+        const std::span<Gathered> out(indirect_.data() + i * bands_, bands_);
+        // A surface is seen as it is: on one plane all share their directions, so that noise is
+        // smooth. Zones are seen many at a time: theirs are independent, so that noise averages
+        // out.
+        if (point.on_surface())
+            gather(scene, lit, point, on_surfaces, plane_seed(seed, point.normal), out);
+        else
+            gather(scene, lit, point, in_zones, hash_seed(seed, i), out);
     });
-    return missing.size() * points.size();
+    return rays;
 }
 
 }  // namespace tyndall::radiosity

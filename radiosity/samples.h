@@ -21,6 +21,10 @@ class SampleSet {
     // thread-safe.
     SampleId in_zone(VertexId vertex, TetId tet);
     SampleId on_patch(VertexId vertex, std::uint32_t facet_side);
+    // One of several samples of a vertex at which direct light jumps: `sides`, not 0, tells them
+    // apart. Taken at x beside the vertex if new.
+    SampleId in_zone(VertexId vertex, TetId tet, std::uint32_t sides, Point x);
+    SampleId on_patch(VertexId vertex, std::uint32_t facet_side, std::uint32_t sides, Point x);
 
     std::size_t size() const { return points_.size(); }
     const GatherPoint& point(SampleId id) const { return points_[id.value]; }
@@ -30,7 +34,8 @@ class SampleSet {
     // Gathers at those of `ids` that have not been gathered yet, in parallel. Returns the rays
     // walked.
     std::size_t gather_at(const std::vector<SampleId>& ids, const GatherScene& scene,
-                          const PointSet& points, std::uint64_t seed);
+                          const LitPatches* lit, const PointSet& on_surfaces,
+                          const PointSet& in_zones, std::uint64_t seed);
 
     double direct(SampleId id, std::size_t band) const { return direct_[id.value * bands_ + band]; }
     double indirect(SampleId id, std::size_t band) const {
@@ -45,13 +50,18 @@ class SampleSet {
     struct Key {
         VertexId vertex;
         std::uint32_t fan;  // tet, or facet side + 2^31
+        std::uint32_t sides;
         bool operator==(const Key&) const = default;
     };
     struct Hash {
         std::size_t operator()(const Key& key) const noexcept {
-            return (std::uint64_t(key.vertex.value) << 32 | key.fan) * 0x9e3779b97f4a7c15ull >> 16;
+            const auto h =
+                (std::uint64_t(key.vertex.value) << 32 | key.fan) * 0x9e3779b97f4a7c15ull;
+            return ((h ^ h >> 31) + key.sides) * 0xbf58476d1ce4e5b9ull >> 16;
         }
     };
+
+    GatherPoint on_side(PatchId root) const;
 
     const Enclosure& enclosure_;
     const Forest& forest_;

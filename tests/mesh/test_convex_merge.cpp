@@ -6,9 +6,11 @@
 
 #include "mesh/convex_merge.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
+#include <random>
 
 using namespace tyndall::mesh;
 
@@ -131,4 +133,23 @@ TEST_CASE("A disc's triangles become one polygon", "[convex_merge]") {
     const auto merged = convex_merge(soup.points, soup.triangles, Facing::kept, 1e-11);
     REQUIRE(merged.size() == 1);
     CHECK(merged[0].corners.size() == n);
+}
+
+// Corners on an edge square to the direction in which a hull sorts round to any order. Once, that
+// lost corners, and light came through the wall.
+TEST_CASE("No corner is lost to rounding", "[convex_merge]") {
+    std::mt19937_64 random(17);
+    std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+    const std::vector<double> lines{0.0, 0.5, 1.0, 1.25, 1.5, 1.9, 2.0, 2.4, 3.0};
+    for (int k = 0; k < 300; ++k) {
+        const auto some = [&] { return Point(uniform(random), uniform(random), uniform(random)); };
+        const Direction u = glm::normalize(some()), v = glm::normalize(glm::cross(u, some()));
+        Soup wall = grid(lines, lines, 10.0 * some(), u, v, [](double x, double y) {
+            return !(x > 1.0 && x < 2.0 && y > 1.0 && y < 2.0);
+        });
+        std::shuffle(wall.triangles.begin(), wall.triangles.end(), random);
+        const auto polygons = convex_merge(wall.points, wall.triangles, Facing::ignored, 1e-10);
+        CHECK(polygons.size() == 4);
+        CHECK(total(polygons) == Approx(8.0).epsilon(1e-9));
+    }
 }

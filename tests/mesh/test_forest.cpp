@@ -1,6 +1,7 @@
 #include "mesh/forest.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "mesh/catch.h"
@@ -162,6 +163,44 @@ TEST_CASE("Tets and triangles around an edge share its vertex", "[forest]") {
     const Carrier expected = corners[0] < corners[1] ? Carrier{corners[0], corners[1], {}, {}}
                                                      : Carrier{corners[1], corners[0], {}, {}};
     CHECK(forest.carrier(middle) == expected);
+}
+
+TEST_CASE("An edge has the same vertex at t from either end", "[forest]") {
+    const BaseMesh mesh = grid();
+    Forest forest(mesh);
+    test::Random random(7);
+    const VertexId a = mesh.facets[0].corners[0], b = mesh.facets[0].corners[1];
+    for (int k = 0; k < 2000; ++k) {
+        // Any t, short ones too: of the plain ones, half change when flipped twice.
+        const double t = std::pow(test::uniform(random, 0.0, 1.0), 4.0) * 0.99 + 0.005;
+        const double place = Forest::place(t);
+        CHECK(std::abs(place - t) < 1e-15);
+        CHECK(1.0 - (1.0 - place) == place);
+        const VertexId vertex = forest.vertex_on_edge(a, b, t);
+        CHECK(forest.vertex_on_edge(b, a, 1.0 - place) == vertex);
+        CHECK(forest.vertex_on_edge(a, b, place) == vertex);
+    }
+    // Two tets on an edge that are cut at t, each from its own end, share the vertex.
+    const std::size_t before = forest.vertex_count();
+    const VertexId vertex = forest.vertex_on_edge(a, b, 1.0 / 3.0);
+    CHECK(forest.vertex_count() == before + 1);
+    int cut = 0;
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+        const auto& corners = mesh.tets[t];
+        const auto i = std::find(corners.begin(), corners.end(), cut % 2 ? b : a);
+        const auto j = std::find(corners.begin(), corners.end(), cut % 2 ? a : b);
+        if (i == corners.end() || j == corners.end()) continue;
+        const double from_a = Forest::place(1.0 / 3.0);
+        forest.bisect(ZoneId(t), int(i - corners.begin()), int(j - corners.begin()),
+                      cut % 2 ? 1.0 - from_a : from_a);
+        ++cut;
+    }
+    CHECK(cut >= 2);
+    CHECK(forest.vertex_count() == before + 1);
+    CHECK(forest.vertex_edges().back().t ==
+          (a < b ? Forest::place(1.0 / 3.0) : 1.0 - Forest::place(1.0 / 3.0)));
+    CHECK(glm::distance(forest.point(vertex),
+                        forest.point(a) + (forest.point(b) - forest.point(a)) / 3.0) < 1e-15);
 }
 
 TEST_CASE("A replayed forest is the same forest", "[forest]") {
