@@ -72,7 +72,7 @@ constexpr Setting solve_settings[] = {
      [](T t, K k, Settings& s) { s.solve.rays = t.count(k, 1, 1'000'000); }},
     {{"row_detail", "number", "0", "theta of the rows' level of detail: rays deposit in coarser elements the farther they are; 0: never"},
      [](T t, K k, Settings& s) { s.solve.row_detail = t.number(k, {0.0, 100.0}); }},
-    {{"gather_rays", "whole number", "128", "walked from each point of a surface in the last, fine gather; half as many from points of zones"},
+    {{"gather_rays", "whole number", "256", "walked from each point of a surface in the last, fine gather; a quarter as many from points of zones"},
      [](T t, K k, Settings& s) { s.solve.gather_rays = t.count(k, 1, 1'000'000); }},
     {{"exchange", "name of a method", "\"walked\"", "how exchange areas are computed"},
      [](T t, K k, Settings& s) { s.solve.exchange = exchange_names[t.choice(k, exchange_names)]; }},

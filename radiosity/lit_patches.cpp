@@ -47,6 +47,8 @@ LitPatches::LitPatches(const Enclosure& enclosure, const Forest& forest, const F
         if (node == none) continue;
         roots_.push_back(node);
         normals_.push_back(normal_of(forest, patch));
+        starts_.push_back(
+            mesh::start_on(enclosure.mesh, FacetId(root / 2), root % 2 ? Side::back : Side::front));
         for (std::size_t b = 0; b < bands_; ++b)
             power += nodes_[node].area * radiance_[node * bands_ + b].at(nodes_[node].centroid) /
                      double(bands_);
@@ -90,6 +92,12 @@ class LitPatches::Visit {
     Visit(const LitPatches& lit, const Receiver& receiver, std::span<double> incident)
         : lit_(lit), receiver_(receiver), incident_(incident), depths_(incident.size()) {}
 
+    void tree(std::size_t root) {
+        start_ = lit_.starts_[root];
+        node(lit_.roots_[root]);
+    }
+
+  private:
     void node(std::uint32_t index) {
         const Node& n = lit_.nodes_[index];
         if (hidden(n.corners)) return;
@@ -103,7 +111,6 @@ class LitPatches::Visit {
         }
     }
 
-  private:
     // Whether a triangle lies below the receiver's horizon.
     bool hidden(const std::array<Point, 3>& corners) const {
         return receiver_.on_surface &&
@@ -173,14 +180,18 @@ class LitPatches::Visit {
                 std::max(0.0, lit_.radiance_[index * incident_.size() + b].at(t.centroid));
     }
 
-    // Shadow rays leave out the first bit of the way; a wall that close is met by walking it.
+    // Shadow rays leave out a bit at both ends; a wall that close is met by walking.
     bool blocked(Direction path) const {
-        const double length = glm::length(path);
-        const mesh::Ray ray{receiver_.x, path / length,
-                            std::min(length, 2.0 * lit_.occlusion_.end_gap())};
-        const auto end = mesh::walk(lit_.enclosure_.mesh, ray, {receiver_.tet},
-                                    [](TetId, double, double) { return true; });
-        return end.arrival == mesh::Arrival::struck || lit_.occlusion_.blocked(receiver_.x, path);
+        const double length = glm::length(path), bit = 2.0 * lit_.occlusion_.end_gap();
+        const auto meets_wall = [&](Point from, Direction way, mesh::WalkStart start) {
+            const mesh::Ray ray{from, way / length, std::min(length, bit)};
+            return mesh::walk(lit_.enclosure_.mesh, ray, start, [](TetId, double, double) {
+                       return true;
+                   }).arrival == mesh::Arrival::struck;
+        };
+        return meets_wall(receiver_.x, path, {receiver_.tet}) ||
+               meets_wall(receiver_.x + path, -path, start_) ||
+               lit_.occlusion_.blocked(receiver_.x, path);
     }
 
     double weight(const Triangle& t) {
@@ -197,13 +208,13 @@ class LitPatches::Visit {
     std::span<double> incident_;
     std::vector<double> depths_;
     std::vector<Point> above_;
+    mesh::WalkStart start_;  // of the facet side whose tree is visited
 };
 
 void LitPatches::gather(const Receiver& receiver, std::span<double> incident) const {
     Visit visit(*this, receiver, incident);
     for (std::size_t k = 0; k < roots_.size(); ++k)
-        if (glm::dot(normals_[k], receiver.x - nodes_[roots_[k]].centroid) > 0.0)
-            visit.node(roots_[k]);
+        if (glm::dot(normals_[k], receiver.x - nodes_[roots_[k]].centroid) > 0.0) visit.tree(k);
 }
 
 }  // namespace tyndall::radiosity

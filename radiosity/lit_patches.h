@@ -52,7 +52,8 @@ class LitPatches {
     std::vector<Affine> radiance_;  // [node * bands + band]; constant on inner nodes
     std::vector<std::uint32_t> roots_;
     std::vector<Direction> normals_;  // of each root
-    double typical_ = 0.0;            // Σ r̄ A over the area of all surfaces [W/m^2/sr]
+    std::vector<mesh::WalkStart> starts_;
+    double typical_ = 0.0;  // Σ r̄ A over the area of all surfaces [W/m^2/sr]
     OpticalDepth depth_;
     Occlusion occlusion_;
 };

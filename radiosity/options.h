@@ -57,7 +57,8 @@ struct SolveOptions {
     double row_detail = 0.0;     // theta: rays deposit in ancestors of size ≤ theta t sqrt(4 pi /
                                  // rays); 0: in the elements alone [-]
     std::size_t promotions = 0;  // times the fine mesh is promoted and solved anew
-    std::size_t gather_rays = 128;  // of the last, fine gather: a point of a surface; half in zones
+    std::size_t gather_rays =
+        256;  // of the last, fine gather: a point of a surface; a quarter in zones
     double solver_tolerance = 1e-6;  // relative residual [-]
     std::size_t solver_iterations = 200;
     std::uint64_t seed = 1;

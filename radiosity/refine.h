@@ -143,7 +143,7 @@ class IndirectRefiner {
     const Enclosure& enclosure_;
     ElementMesh& mesh_;
     const Elements& coarse_;
-    // Zones are seen many at a time, and need half the rays.
+    // Zones are seen many at a time, and need a quarter of the rays.
     PointSet on_surfaces_, in_zones_;
     std::uint64_t seed_;
     Settled zones_, patches_;

@@ -8,10 +8,10 @@ namespace tyndall::radiosity {
 namespace {
 
 // A departure within this many standard deviations of the gather's noise is taken for noise. On
-// patches, which share their directions and are seen as they are, a quarter is enough: an element
-// too many costs less than a facet that shows.
+// patches, which are seen as they are, one is enough: an element too many costs less than a facet
+// that shows.
 template <class Node>
-constexpr double deviations = std::is_same_v<Node, PatchId> ? 0.25 : 2.0;
+constexpr double deviations = std::is_same_v<Node, PatchId> ? 1.0 : 2.0;
 // A settled element keeps the quadratic through its samples, of which its leaves hold linear parts:
 // about a quarter of the departure from linear remains where the function is smooth, about half at
 // the edges of light on surfaces.
@@ -41,7 +41,7 @@ IndirectRefiner::IndirectRefiner(const Enclosure& enclosure, ElementMesh& mesh,
       mesh_(mesh),
       coarse_(coarse),
       on_surfaces_(rays),
-      in_zones_((rays + 1) / 2),
+      in_zones_((rays + 3) / 4),
       seed_(seed) {}
 
 template <class Node>
