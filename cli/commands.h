@@ -70,4 +70,7 @@ void add_probe_command(Shell& shell);
 // check_command.cpp
 void add_check_command(Shell& shell);
 
+// study_command.cpp
+void add_study_command(Shell& shell);
+
 }  // namespace tyndall::cli

@@ -7,7 +7,10 @@
 #include <optional>
 
 #include "cli/commands.h"
+#include "cli/compare_solutions.h"
+#include "cli/job.h"
 #include "mesh/input_error.h"
+#include "radiosity/solution_file.h"
 #include "render/compare.h"
 #include "render/image_files.h"
 
@@ -20,6 +23,8 @@ using mesh::InputError;
 
 struct CompareOptions {
     std::string picture, reference, layer, difference;
+    bool solutions = false;
+    SolutionComparison comparison;
     std::optional<double> difference_range;
     std::optional<double> max_rmse, max_bias, max_block4, max_block16;
 };
@@ -33,7 +38,8 @@ struct Side {
 constexpr const char* examples =
     R"(  tyndall compare out/ reference.pfm
   tyndall compare out/image.exr direct.pfm --layer direct_single --difference off.png
-  tyndall compare out/ before/ --max-block4 0.01 || echo worse)";
+  tyndall compare out/ before/ --max-block4 0.01 || echo worse
+  tyndall compare out/ fine/ --solutions)";
 
 // The picture of a folder that `tyndall run` filled, or the file itself.
 fs::path picture_file(const std::string& given) {
@@ -148,14 +154,105 @@ int compare_pictures(const CompareOptions& options, const CommonFlags& flags) {
     return 0;
 }
 
+// Whether solutions are meant: asked for, or there is no picture to compare.
+bool wants_solutions(const CompareOptions& options) {
+    const auto is_solution = [](const std::string& given) {
+        const fs::path path(given);
+        std::error_code ignored;
+        if (!fs::is_directory(path, ignored)) return path.extension() == ".vtkhdf";
+        return !fs::exists(path / "image.exr", ignored) &&
+               fs::exists(path / "solution.vtkhdf", ignored);
+    };
+    return options.solutions || is_solution(options.picture) || is_solution(options.reference);
+}
+
+nlohmann::ordered_json as_json(const std::optional<PointErrors>& e) {
+    if (!e) return nullptr;
+    return {{"points", e->points},
+            {"mean", e->mean},
+            {"reference_mean", e->reference_mean},
+            {"rmse", e->rmse},
+            {"bias", e->bias}};
+}
+
+std::string as_text(const SolutionErrors& errors) {
+    std::string text;
+    const auto add = [&](const char* name, const std::optional<PointErrors>& e, const char* unit) {
+        if (!e) return;
+        text += fmt::format("{}RMSE {:.4f} %, bias {:+.4f} %, mean {:.6g} of {:.6g} {}\n", name,
+                            100.0 * e->rmse, 100.0 * e->bias, e->mean, e->reference_mean, unit);
+    };
+    add("J probed      ", errors.source, "W/m2/sr");
+    add("J held        ", errors.source_held, "W/m2/sr");
+    add("E probed      ", errors.irradiance, "W/m2");
+    add("E held        ", errors.irradiance_held, "W/m2");
+    return text +
+           "Errors are relative to the reference's mean, at points by 4 kappa volume and by "
+           "area.\nHeld: what the leaves hold, against the reference's probes.\n";
+}
+
+// What is wrong with the solution; empty if nothing.
+std::string verdict(const CompareOptions& options, const SolutionErrors& errors) {
+    std::string text;
+    const auto check = [&](const char* name, double value, const std::optional<double>& limit) {
+        if (limit && !(std::abs(value) <= *limit))
+            text += fmt::format("{}{} {:.6g} exceeds {:.6g}", text.empty() ? "" : "; ", name, value,
+                                *limit);
+    };
+    const auto check_both = [&](const char* name, const std::optional<PointErrors>& e) {
+        if (!e) return;
+        check(fmt::format("rmse of {}", name).c_str(), e->rmse, options.max_rmse);
+        check(fmt::format("bias of {}", name).c_str(), e->bias, options.max_bias);
+    };
+    check_both("J", errors.source);
+    check_both("E", errors.irradiance);
+    return text;
+}
+
+int compare_solution_files(const CompareOptions& options, const CommonFlags& flags) {
+    if (!options.layer.empty() || !options.difference.empty() || options.max_block4 ||
+        options.max_block16)
+        throw InputError(
+            "--layer, --difference and block errors speak of pictures, and solutions are to be "
+            "compared. Leave them out, or give pictures.");
+    const auto path = solution_path(options.picture), reference = solution_path(options.reference);
+    const auto file = radiosity::read_solution(path);
+    const auto reference_file = radiosity::read_solution(reference);
+    ProgressLine progress(flags);
+    const auto errors = compare_solutions(file.solution, reference_file.solution,
+                                          options.comparison, progress.callback());
+    progress.clear();
+    if (flags.json)
+        write_output(nlohmann::ordered_json{{"solution", path.string()},
+                                            {"reference", reference.string()},
+                                            {"source", as_json(errors.source)},
+                                            {"source_held", as_json(errors.source_held)},
+                                            {"irradiance", as_json(errors.irradiance)},
+                                            {"irradiance_held", as_json(errors.irradiance_held)}}
+                         .dump(2) +
+                     "\n");
+    else if (!flags.quiet)
+        write_output(
+            fmt::format("solution      {}\nreference     {}\n", path.string(), reference.string()) +
+            as_text(errors));
+    const auto wrong = verdict(options, errors);
+    if (!wrong.empty()) throw InputError(fmt::format("'{}': {}.", path.string(), wrong));
+    return 0;
+}
+
 }  // namespace
 
 void add_compare_command(Shell& shell) {
     const auto options = std::make_shared<CompareOptions>();
     auto& command = shell.add_command(
-        "compare", "Errors of a picture against a reference", examples,
-        [options](const CommonFlags& flags) { return compare_pictures(*options, flags); });
-    command.add_option("A", options->picture, "Picture: .exr, .pfm, or a folder with image.exr")
+        "compare", "Errors of a picture, or of a solution, against a reference", examples,
+        [options](const CommonFlags& flags) {
+            return wants_solutions(*options) ? compare_solution_files(*options, flags)
+                                             : compare_pictures(*options, flags);
+        });
+    command
+        .add_option("A", options->picture,
+                    "Picture (.exr, .pfm), solution (.vtkhdf), or folder of a run")
         ->required();
     command.add_option("B", options->reference, "Reference, likewise")->required();
     command.add_option("--layer", options->layer,
@@ -167,6 +264,16 @@ void add_compare_command(Shell& shell) {
         .add_option("--difference-range", options->difference_range,
                     "Difference in full colour, in the layer's unit; else the 99.5th percentile")
         ->check(CLI::PositiveNumber);
+    command.add_flag("--solutions", options->solutions,
+                     "Compare the folders' solutions instead of their pictures");
+    command
+        .add_option("--points", options->comparison.points,
+                    "Of solutions: points in the media, and as many on sides; 256 if not given")
+        ->check(CLI::Range(std::size_t(1), std::size_t(1) << 20));
+    command
+        .add_option("--rays", options->comparison.rays,
+                    "Of solutions: gathered along at each point; 1024 if not given")
+        ->check(CLI::Range(std::size_t(1), std::size_t(1) << 24));
     const auto add_limit = [&](const char* flag, std::optional<double>& limit) {
         command.add_option(flag, limit, "Exit with 1 if this error, as a fraction, is larger")
             ->check(CLI::NonNegativeNumber);

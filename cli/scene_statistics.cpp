@@ -14,7 +14,7 @@ using mesh::Point;
 // Measured on the example scenes; good within a factor of two.
 constexpr double process_bytes = 35e6;
 constexpr double element_bytes = 800.0, element_band_bytes = 300.0;
-constexpr double row_entry_bytes = 12.0;   // column and value
+constexpr double row_entry_bytes = 8.0;    // column and value
 constexpr double crossings = 10.0;         // elements that a ray of a row meets
 constexpr double start_elements = 5500.0;  // of the coarse solution, if the base mesh has fewer
 

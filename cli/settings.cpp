@@ -13,6 +13,7 @@ constexpr std::array<std::string_view, 1> exchange_names{"walked"};
 constexpr std::array<std::string_view, 1> solver_names{"gmres"};
 constexpr std::array<std::string_view, 5> refinement_names{"none", "uniform", "adaptive", "view",
                                                            "aligned"};
+constexpr std::array<std::string_view, 3> start_names{"single-zone", "base", "uniform"};
 constexpr std::array<std::string_view, 2> radiance_names{"constant", "linear"};
 constexpr std::array<std::string_view, 2> direct_light_names{"closed_form", "rows"};
 constexpr std::array<std::string_view, 1> render_method_names{"line_of_sight"};
@@ -47,8 +48,12 @@ constexpr Setting solve_settings[] = {
      [](T t, K k, Settings& s) { s.solve.error = t.number(k, {0.0, 1.0, true, true}); }},
     {{"camera", "name of a camera", "the first camera", "the camera whose picture matters; \"\" for a solution good everywhere"},
      [](T t, K k, Settings& s) { s.camera = t.text(k); }},
-    {{"refinement", "\"none\", \"uniform\", \"adaptive\", \"view\" or \"aligned\"", "\"view\"", "the initial mesh; all down to element_size; where it is needed; where the picture needs it; along shadow boundaries too"},
+    {{"start", "\"single-zone\", \"base\" or \"uniform\"", "\"uniform\"", "the mesh to begin with: one zone a medium and the input polygons, the base tets and facets, or these bisected down to element_size (0: to about 4000 zones and 1500 patches)"},
+     [](T t, K k, Settings& s) { s.solve.start = static_cast<radiosity::Start>(t.choice(k, start_names)); }},
+    {{"refinement", "\"none\", \"uniform\", \"adaptive\", \"view\" or \"aligned\"", "\"aligned\"", "the initial mesh; all down to element_size; where it is needed; where the picture needs it; along shadow boundaries too"},
      [](T t, K k, Settings& s) { s.solve.refinement = static_cast<radiosity::Refinement>(t.choice(k, refinement_names)); }},
+    {{"promotions", "whole number", "0", "times the refined mesh, at a looser goal, is solved anew before the last refinement"},
+     [](T t, K k, Settings& s) { s.solve.promotions = t.count(k, 0, 10); }},
     {{"radiance", "\"constant\" or \"linear\"", "\"linear\"", "what an element holds: its mean, or a linear function with that mean"},
      [](T t, K k, Settings& s) { s.solve.radiance = static_cast<radiosity::Radiance>(t.choice(k, radiance_names)); }},
     {{"direct_light", "\"closed_form\" or \"rows\"", "\"closed_form\"", "light straight from emitting surfaces: integrated over their visible part, or through the exchange areas"},
@@ -65,7 +70,9 @@ constexpr Setting solve_settings[] = {
      [](T t, K k, Settings& s) { s.solve.max_passes = t.count(k, 0, 1000); }},
     {{"rays", "whole number", "256", "walked from each element for its row of exchange areas"},
      [](T t, K k, Settings& s) { s.solve.rays = t.count(k, 1, 1'000'000); }},
-    {{"gather_rays", "whole number", "256", "walked from each point of the last, fine gather"},
+    {{"row_detail", "number", "0", "theta of the rows' level of detail: rays deposit in coarser elements the farther they are; 0: never"},
+     [](T t, K k, Settings& s) { s.solve.row_detail = t.number(k, {0.0, 100.0}); }},
+    {{"gather_rays", "whole number", "128", "walked from each point of a surface in the last, fine gather; half as many from points of zones"},
      [](T t, K k, Settings& s) { s.solve.gather_rays = t.count(k, 1, 1'000'000); }},
     {{"exchange", "name of a method", "\"walked\"", "how exchange areas are computed"},
      [](T t, K k, Settings& s) { s.solve.exchange = exchange_names[t.choice(k, exchange_names)]; }},

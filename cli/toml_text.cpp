@@ -130,6 +130,10 @@ std::string toml_text(const toml::table& root) {
     return text;
 }
 
+std::string whole_text_of(const toml::node& node) {
+    return inline_text(node);
+}
+
 std::string text_of(const toml::node& node) {
     std::string text = inline_text(node);
     constexpr std::size_t longest = 60;

@@ -68,11 +68,12 @@ class Escape {
         const auto count = std::max<std::size_t>(
             16, static_cast<std::size_t>(
                     std::ceil(static_cast<double>(points_.size()) * area / emitting)));
-        const auto& c = forest[e.patches[i]].corners;
-        const auto n = normal_of(forest, e.patches[i]);
-        const auto side = forest.base_facet_side(e.patches[i]);
         for (std::size_t k = 0; k < std::min(count, points_.size()); ++k) {
-            const auto u = points_(k, hash_seed(seed_, i));
+            auto u = points_(k, hash_seed(seed_, i));
+            const PatchId patch(e.pick_member(i, u[0]));
+            const auto& c = forest[patch].corners;
+            const auto n = normal_of(forest, patch);
+            const auto side = forest.base_facet_side(patch);
             const auto w = uniform_in_triangle(u[0], u[1]);
             const Point x =
                 w[0] * forest.point(c[0]) + w[1] * forest.point(c[1]) + w[2] * forest.point(c[2]);
@@ -187,12 +188,9 @@ Balance balance(const Enclosure& enclosure, const CoarseSolution& coarse,
             brought[b] += pi * c * e.emission[k];
             received_direct[b] += pi * c * incident_direct[k];
             const ExchangeAreas& rows = coarse.areas(b);
-            const std::size_t last = rows.starts[i + 1];
-            if (last > rows.starts[i] && rows.columns[last - 1] == e.outside()) {
-                const double to_outside = pi * rows.values[last - 1];
-                outside[b] += to_outside * (r - enclosure.environment[b]);
-                brought[b] += to_outside * enclosure.environment[b];
-            }
+            const double escaping = pi * to_outside(rows, e, i);
+            outside[b] += escaping * (r - enclosure.environment[b]);
+            brought[b] += escaping * enclosure.environment[b];
         }
     }
     double imbalance = 0.0, total = 0.0, direct = 0.0, direct_total = 0.0;

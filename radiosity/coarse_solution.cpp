@@ -16,10 +16,11 @@ bool same_extinction(const Enclosure& enclosure, std::size_t a, std::size_t b) {
 
 CoarseSolution::CoarseSolution(const Enclosure& enclosure, const Forest& forest,
                                const SolveOptions& options, const ProgressCallback& progress)
-    : enclosure_(enclosure),
-      forest_(forest),
-      options_(options),
-      elements_(elements_of_leaves(enclosure, forest)) {
+    : CoarseSolution(enclosure, forest, elements_of_leaves(enclosure, forest), options, progress) {}
+
+CoarseSolution::CoarseSolution(const Enclosure& enclosure, const Forest& forest, Elements elements,
+                               const SolveOptions& options, const ProgressCallback& progress)
+    : enclosure_(enclosure), forest_(forest), options_(options), elements_(std::move(elements)) {
     for (std::size_t band = 0; band < enclosure.bands; ++band) {
         std::size_t same = 0;
         while (same < band && !same_extinction(enclosure, same, band)) ++same;
@@ -32,6 +33,7 @@ CoarseSolution::CoarseSolution(const Enclosure& enclosure, const Forest& forest,
                                   {.band = band,
                                    .rays = options.rays,
                                    .seed = options.seed,
+                                   .detail = options.row_detail,
                                    .progress = progress,
                                    .lost_rays = &lost_rays_}));
         rays_ += elements_.size() * options.rays;
@@ -50,7 +52,9 @@ double CoarseSolution::split_emission(std::size_t element, std::size_t band) con
     return split ? elements_.emission[element * elements_.bands + band] : 0.0;
 }
 
-void CoarseSolution::solve(const std::vector<double>& incident_direct) {
+void CoarseSolution::solve(const std::vector<double>& incident_direct,
+                           const std::vector<double>& incident_lit) {
+    const bool apart = !incident_lit.empty();
     const std::size_t bands = elements_.bands, n = elements_.size();
     indirect_.assign(n * bands, 0.0);
     reflected_.assign(n * bands, 0.0);
@@ -58,17 +62,17 @@ void CoarseSolution::solve(const std::vector<double>& incident_direct) {
     std::vector<double> source(n);
     for (std::size_t b = 0; b < bands; ++b) {
         const ExchangeAreas& rows = areas(b);
-        std::vector<double> from_outside(n, 0.0);
+        std::vector<double> from_outside(n, 0.0), arrived(n, 0.0);
         for (std::size_t i = 0; i < n; ++i) {
             const double capacity = elements_.capacity[i * bands + b];
-            // Outside is the last column of a row, if it is there at all.
-            const std::size_t last = rows.starts[i + 1];
-            if (capacity > 0.0 && last > rows.starts[i] &&
-                rows.columns[last - 1] == elements_.outside())
-                from_outside[i] = rows.values[last - 1] / capacity * enclosure_.environment[b];
+            if (capacity > 0.0)
+                from_outside[i] =
+                    to_outside(rows, elements_, i) / capacity * enclosure_.environment[b];
+            const double sent =
+                apart && elements_.is_patch(i) ? 0.0 : incident_direct[i * bands + b];
+            if (apart) arrived[i] = incident_lit[i * bands + b];
             source[i] = elements_.emission[i * bands + b] - split_emission(i, b) +
-                        elements_.scatter[i * bands + b] *
-                            (incident_direct[i * bands + b] + from_outside[i]);
+                        elements_.scatter[i * bands + b] * (sent + arrived[i] + from_outside[i]);
         }
         const LinearProblem problem{elements_, rows, b, source};
         const SolverResult result =
@@ -76,14 +80,15 @@ void CoarseSolution::solve(const std::vector<double>& incident_direct) {
         report_.iterations = std::max(report_.iterations, result.iterations);
         report_.residual = std::max(report_.residual, result.residual);
         report_.converged = report_.converged && result.converged;
+        const std::vector<double> received = multiply(rows, elements_, result.radiance);
         for (std::size_t i = 0; i < n; ++i) {
             const double capacity = elements_.capacity[i * bands + b];
-            double sum = 0.0;
-            for (std::size_t k = rows.starts[i]; k < rows.starts[i + 1]; ++k)
-                if (const auto j = rows.columns[k]; j != elements_.outside())
-                    sum += rows.values[k] * result.radiance[j];
-            indirect_[i * bands + b] = capacity > 0.0 ? sum / capacity + from_outside[i] : 0.0;
+            indirect_[i * bands + b] =
+                capacity > 0.0 ? received[i] / capacity + from_outside[i] + arrived[i] : 0.0;
             reflected_[i * bands + b] = result.radiance[i];
+            if (apart && elements_.is_patch(i))
+                reflected_[i * bands + b] +=
+                    elements_.scatter[i * bands + b] * incident_direct[i * bands + b];
         }
     }
 }

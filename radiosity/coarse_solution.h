@@ -13,6 +13,9 @@ class CoarseSolution {
     // The elements are the forest's leaves now; rows are made here, once a distinct extinction.
     CoarseSolution(const Enclosure& enclosure, const Forest& forest, const SolveOptions& options,
                    const ProgressCallback& progress);
+    // With elements of the caller's, clusters for instance.
+    CoarseSolution(const Enclosure& enclosure, const Forest& forest, Elements elements,
+                   const SolveOptions& options, const ProgressCallback& progress);
 
     const Elements& elements() const { return elements_; }
     const Forest& forest() const { return forest_; }
@@ -23,7 +26,10 @@ class CoarseSolution {
 
     // Solves for r given H^A of every element ([element * bands + band]):
     //   r = e^R + a (H^A + S r / c).  e^R leaves out what direct light counts in closed form.
-    void solve(const std::vector<double>& incident_direct);
+    // With `incident_lit`, H from what patches reflect of direct light, r leaves that out of what
+    // is sent through the rows: it has arrived already.
+    void solve(const std::vector<double>& incident_direct,
+               const std::vector<double>& incident_lit = {});
 
     const SolverReport& report() const { return report_; }
     // S r / c with outside: the indirect part of H, and r itself [W/m^2/sr].

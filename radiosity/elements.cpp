@@ -1,6 +1,9 @@
 #include "radiosity/elements.h"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
+
+#include "mesh/input_error.h"
 
 namespace tyndall::radiosity {
 
@@ -20,41 +23,163 @@ Direction normal_of(const Forest& forest, PatchId patch) {
     return glm::normalize(glm::cross(forest.point(c[1]) - a, forest.point(c[2]) - a));
 }
 
-Elements elements_of_leaves(const Enclosure& enclosure, const Forest& forest) {
+namespace {
+
+void append_optics(Elements& e, double measure, const Spectrum* extinction, const Spectrum& scatter,
+                   const Spectrum& emission) {
+    for (std::size_t b = 0; b < e.bands; ++b) {
+        e.capacity.push_back(extinction ? 4.0 * (*extinction)[b] * measure : measure);
+        e.scatter.push_back(scatter[b]);
+        e.emission.push_back(emission[b]);
+    }
+}
+
+// Adds an element whose first member, area and side are given.
+void append(Elements& e, const SurfaceSide& side, PatchId patch, double area) {
+    e.patches.push_back(patch);
+    append_optics(e, area, nullptr, side.reflectance, side.emission);
+}
+
+void append(Elements& e, const MediumOptics& medium, ZoneId zone, double volume) {
+    e.zones.push_back(zone);
+    append_optics(e, volume, &medium.extinction, medium.albedo, medium.emission);
+}
+
+Elements without_elements(const Enclosure& enclosure, const Forest& forest) {
     Elements e;
     e.bands = enclosure.bands;
     e.of_patch.assign(forest.patch_count(), none);
     e.of_zone.assign(forest.zone_count(), none);
-    for (std::size_t p = 0; p < forest.patch_count(); ++p) {
-        const PatchId patch(p);
-        if (!forest.is_leaf(patch)) continue;
-        const auto side = side_of(enclosure, forest, patch);
-        if (side == none) continue;
-        e.of_patch[p] = static_cast<std::uint32_t>(e.patches.size());
-        e.patches.push_back(patch);
-        const double area = forest.area(patch);
-        for (std::size_t b = 0; b < e.bands; ++b) {
-            e.capacity.push_back(area);
-            e.scatter.push_back(enclosure.sides[side].reflectance[b]);
-            e.emission.push_back(enclosure.sides[side].emission[b]);
+    return e;
+}
+
+// The leaves below a root, as they lie in its tree: neighbours there are neighbours in space.
+template <class Node, class Visit>
+void each_leaf(const Forest& forest, Node root, Visit&& visit) {
+    std::vector<Node> open{root};
+    while (!open.empty()) {
+        const Node node = open.back();
+        open.pop_back();
+        if (forest.is_leaf(node)) {
+            visit(node);
+            continue;
         }
+        const Node first = forest[node].first_child;
+        open.push_back(Node(first.value + 1ull));
+        open.push_back(first);
     }
-    for (std::size_t z = 0; z < forest.zone_count(); ++z) {
-        const ZoneId zone(z);
-        if (!forest.is_leaf(zone)) continue;
-        const auto medium = medium_of(enclosure, forest, zone);
+}
+
+}  // namespace
+
+Elements elements_of_leaves(const Enclosure& enclosure, const Forest& forest) {
+    Elements e = without_elements(enclosure, forest);
+    const OpticalTags tags(enclosure);
+    for (std::size_t p = 0; p < tags.facet_sides.size(); ++p) {
+        const auto side = tags.facet_sides[p];
+        if (side == none) continue;
+        each_leaf(forest, PatchId(p), [&](PatchId patch) {
+            e.of_patch[patch.value] = static_cast<std::uint32_t>(e.size());
+            append(e, enclosure.sides[side], patch, forest.area(patch));
+        });
+    }
+    for (std::size_t t = 0; t < tags.tets.size(); ++t) {
+        const auto medium = tags.tets[t];
         if (medium == none) continue;
-        e.of_zone[z] = static_cast<std::uint32_t>(e.size());
-        e.zones.push_back(zone);
-        const double volume = forest.volume(zone);
-        const auto& optics = enclosure.media[medium];
-        for (std::size_t b = 0; b < e.bands; ++b) {
-            e.capacity.push_back(4.0 * optics.extinction[b] * volume);
-            e.scatter.push_back(optics.albedo[b]);
-            e.emission.push_back(optics.emission[b]);
-        }
+        each_leaf(forest, ZoneId(t), [&](ZoneId zone) {
+            e.of_zone[zone.value] = static_cast<std::uint32_t>(e.size());
+            append(e, enclosure.media[medium], zone, forest.volume(zone));
+        });
     }
     return e;
+}
+
+namespace {
+
+// Appends a cluster's members to the last element; returns their area or volume.
+template <class Measure>
+double append_members(Elements& e, std::span<const std::uint32_t> members, Measure&& measure) {
+    double total = 0.0;
+    for (const auto member : members) {
+        e.members.push_back(member);
+        e.member_ends.push_back(total += measure(member));
+    }
+    for (std::size_t k = e.member_starts.back(); k < e.members.size(); ++k)
+        e.member_ends[k] /= total;
+    e.member_starts.push_back(e.members.size());
+    return total;
+}
+
+void check_tag(const std::vector<std::uint32_t>& tags, std::span<const std::uint32_t> members) {
+    for (const auto member : members)
+        if (tags[member] == none || tags[member] != tags[members[0]])
+            throw mesh::InputError(
+                "a cluster holds more than one medium or side of a surface, or none. Make clusters "
+                "with the tags of the enclosure.");
+}
+
+}  // namespace
+
+Elements elements_of_clusters(const Enclosure& enclosure, const Forest& forest,
+                              const mesh::Clusters& clusters) {
+    Elements e = without_elements(enclosure, forest);
+    e.member_starts = {0};
+    const OpticalTags tags(enclosure);
+    // Base tets and facet sides are the first nodes of the forest, by the same numbers.
+    const auto each_root = [&](const mesh::ClusterTree& tree, const auto& add) {
+        for (std::size_t c = 0; c < tree.clusters.size(); ++c)
+            if (!tree.clusters[c].parent.valid()) add(tree.members_of(mesh::ClusterId(c)));
+    };
+    each_root(clusters.patches, [&](std::span<const std::uint32_t> members) {
+        check_tag(tags.facet_sides, members);
+        for (const auto member : members) e.of_patch[member] = static_cast<std::uint32_t>(e.size());
+        const double area =
+            append_members(e, members, [&](std::uint32_t p) { return forest.area(PatchId(p)); });
+        append(e, enclosure.sides[tags.facet_sides[members[0]]], PatchId(members[0]), area);
+    });
+    each_root(clusters.zones, [&](std::span<const std::uint32_t> members) {
+        check_tag(tags.tets, members);
+        for (const auto member : members) e.of_zone[member] = static_cast<std::uint32_t>(e.size());
+        const double volume =
+            append_members(e, members, [&](std::uint32_t z) { return forest.volume(ZoneId(z)); });
+        append(e, enclosure.media[tags.tets[members[0]]], ZoneId(members[0]), volume);
+    });
+    return e;
+}
+
+OpticalTags::OpticalTags(const Enclosure& enclosure) {
+    for (std::size_t t = 0; t < enclosure.mesh.tets.size(); ++t)
+        tets.push_back(enclosure.solid(TetId(t)) ? none : enclosure.medium_of(TetId(t)));
+    for (const auto& sides : enclosure.facet_sides)
+        facet_sides.insert(facet_sides.end(), {sides[0], sides[1]});
+}
+
+std::vector<PatchId> Elements::member_patches() const {
+    if (member_starts.empty()) return patches;
+    std::vector<PatchId> result;
+    for (std::size_t k = 0; k < member_starts[patches.size()]; ++k)
+        result.push_back(PatchId(members[k]));
+    return result;
+}
+
+std::vector<ZoneId> Elements::member_zones() const {
+    if (member_starts.empty()) return zones;
+    std::vector<ZoneId> result;
+    for (std::size_t k = member_starts[patches.size()]; k < members.size(); ++k)
+        result.push_back(ZoneId(members[k]));
+    return result;
+}
+
+std::uint32_t Elements::pick_member(std::size_t element, double& u) const {
+    const auto all = members_of(element);
+    if (all.size() == 1) return all[0];
+    const auto ends = std::span(member_ends).subspan(member_starts[element], all.size());
+    const auto k = std::min(
+        static_cast<std::size_t>(std::upper_bound(ends.begin(), ends.end(), u) - ends.begin()),
+        all.size() - 1);
+    const double begin = k > 0 ? ends[k - 1] : 0.0;
+    u = std::clamp((u - begin) / (ends[k] - begin), 0.0, 1.0 - 0x1p-53);
+    return all[k];
 }
 
 }  // namespace tyndall::radiosity

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "mesh/clusters.h"
 #include "mesh/forest.h"
 #include "radiosity/enclosure.h"
 
@@ -17,13 +18,19 @@ using ElementId = mesh::Id<struct ElementTag>;
 
 // One entry an element, times `bands` where a value depends on the band ([element * bands + band]).
 // Nothing that reads capacity, scatter and emission asks "surface or volume?" (docs/theory.md).
+//
+// An element is a leaf of the forest, or a cluster of its roots: base tets of one medium, facet
+// sides of one side of a surface. `patches` and `zones` then name the first of its members.
 struct Elements {
     std::size_t bands = 1;
-    std::vector<PatchId> patches;         // element i < patches.size()
-    std::vector<ZoneId> zones;            // element patches.size() + k
-    std::vector<double> capacity;         // c: area, or 4 kappa_t volume [m^2]
-    std::vector<double> scatter;          // a: reflectance, or albedo [-]
-    std::vector<double> emission;         // e [W/m^2/sr]
+    std::vector<PatchId> patches;            // element i < patches.size()
+    std::vector<ZoneId> zones;               // element patches.size() + k
+    std::vector<std::size_t> member_starts;  // of every element, into members; empty: no clusters
+    std::vector<std::uint32_t> members;      // patch or zone nodes
+    std::vector<double> member_ends;  // share of the element's area or volume up to and with it [-]
+    std::vector<double> capacity;     // c: area, or 4 kappa_t volume [m^2]
+    std::vector<double> scatter;      // a: reflectance, or albedo [-]
+    std::vector<double> emission;     // e [W/m^2/sr]
     std::vector<std::uint32_t> of_patch;  // element of a patch node; none
     std::vector<std::uint32_t> of_zone;   // element of a zone node; none (empty space, inner nodes)
 
@@ -31,11 +38,42 @@ struct Elements {
     std::size_t outside() const { return size(); }
     bool is_patch(std::size_t element) const { return element < patches.size(); }
     ZoneId zone(std::size_t element) const { return zones[element - patches.size()]; }
+    // The patch or zone nodes that make up an element.
+    std::span<const std::uint32_t> members_of(std::size_t element) const {
+        if (member_starts.empty())
+            return {is_patch(element) ? &patches[element].value
+                                      : &zones[element - patches.size()].value,
+                    1};
+        return std::span(members).subspan(member_starts[element],
+                                          member_starts[element + 1] - member_starts[element]);
+    }
+    // The members of all elements: nodes of the forest without a cluster among them.
+    std::vector<PatchId> member_patches() const;
+    std::vector<ZoneId> member_zones() const;
+
+    // The member in which a place falls that is uniform over the element, given a number u in
+    // [0, 1); u becomes the place's number within the member, again uniform in [0, 1), so that
+    // what was stratified stays so.
+    std::uint32_t pick_member(std::size_t element, double& u) const;
 };
 
 // The elements of the forest's leaves: every leaf on a side that light can reach, every leaf in a
-// medium.
+// medium; tree by tree, so that elements that follow each other are near each other.
 Elements elements_of_leaves(const Enclosure& enclosure, const Forest& forest);
+
+// One element a cluster: every cluster that has no parent (mesh::make_whole_clusters). Roots of the
+// forest that are in no cluster are no element's.
+// Errors: mesh::InputError if a cluster holds more than one medium or surface side.
+Elements elements_of_clusters(const Enclosure& enclosure, const Forest& forest,
+                              const mesh::Clusters& clusters);
+
+// What clusters must have in common: the medium of every base tet, the side of every facet side.
+struct OpticalTags {
+    explicit OpticalTags(const Enclosure& enclosure);
+    operator mesh::ClusterTags() const { return {tets, facet_sides}; }
+
+    std::vector<std::uint32_t> tets, facet_sides;
+};
 
 // Side of a surface that a patch belongs to; none where no light can be.
 std::uint32_t side_of(const Enclosure& enclosure, const Forest& forest, PatchId patch);

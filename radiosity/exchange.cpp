@@ -1,22 +1,104 @@
 #include "radiosity/exchange.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 
+#include "radiosity/point_set.h"
+
 namespace tyndall::radiosity {
+namespace {
+
+// Appends a row in single precision: each entry takes over what rounding left of the one before,
+// so that rows still close.
+void append_rounded(std::span<const double> row, std::vector<float>& values) {
+    double left = 0.0;
+    for (const double value : row) {
+        const auto rounded = static_cast<float>(std::max(0.0, value + left));
+        left += value - static_cast<double>(rounded);
+        values.push_back(rounded);
+    }
+}
+
+// Space for all rows, by the mean length of some: growth would copy, and hold both copies.
+void reserve(ExchangeAreas& areas, ExchangeMethod method, const Discretization& d,
+             ExchangeOptions options) {
+    constexpr std::size_t sample = 256;
+    const std::size_t count = d.elements.size();
+    areas.starts.reserve(count + 1);
+    if (count < 16 * sample) return;
+    std::vector<ElementId> rows;
+    for (std::size_t k = 0; k < sample; ++k) rows.push_back(ElementId(k * count / sample));
+    options.progress = {};
+    options.lost_rays = nullptr;
+    std::size_t entries = 0;
+    method(d, rows, options,
+           [&](ElementId, std::span<const std::uint32_t> columns, std::span<const double>) {
+               entries += columns.size();
+           });
+    // A tenth more: memory that is not written to is not taken.
+    const std::size_t all = entries * count / sample;
+    areas.columns.reserve(all + all / 10);
+    areas.values.reserve(all + all / 10);
+}
+
+}  // namespace
 
 ExchangeAreas all_rows(ExchangeMethod method, const Discretization& discretization,
                        const ExchangeOptions& options) {
     std::vector<ElementId> rows(discretization.elements.size());
     for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = ElementId(i);
     ExchangeAreas areas;
-    method(discretization, rows, options,
+    ExchangeOptions with_levels = options;
+    if (options.detail > 0.0 && discretization.elements.member_starts.empty()) {
+        areas.levels = options.levels
+                           ? *options.levels
+                           : make_row_levels(discretization.enclosure, discretization.forest,
+                                             discretization.elements);
+        with_levels.levels = &areas.levels;
+    }
+    reserve(areas, method, discretization, with_levels);
+    method(discretization, rows, with_levels,
            [&](ElementId, std::span<const std::uint32_t> columns, std::span<const double> values) {
                areas.columns.insert(areas.columns.end(), columns.begin(), columns.end());
-               areas.values.insert(areas.values.end(), values.begin(), values.end());
+               append_rounded(values, areas.values);
                areas.starts.push_back(areas.columns.size());
            });
     return areas;
+}
+
+std::vector<double> multiply(const ExchangeAreas& areas, const Elements& elements,
+                             std::span<const double> x) {
+    // Outside has the value 0: no entry needs to ask.
+    std::vector<double> values;
+    if (areas.levels.empty()) {
+        values.assign(x.begin(), x.end());
+        values.resize(elements.size() + 1, 0.0);
+    } else {
+        values = areas.levels.pull(x);
+    }
+    std::vector<double> result(areas.rows());
+    tbb::parallel_for(std::size_t(0), result.size(), [&](std::size_t i) {
+        double sum = 0.0;
+        for (std::size_t k = areas.starts[i]; k < areas.starts[i + 1]; ++k)
+            sum += static_cast<double>(areas.values[k]) * values[areas.columns[k]];
+        result[i] = sum;
+    });
+    return result;
+}
+
+double entry(const ExchangeAreas& areas, std::size_t row, std::uint32_t column) {
+    const auto begin = areas.columns.begin() + static_cast<std::ptrdiff_t>(areas.starts[row]);
+    const auto end = areas.columns.begin() + static_cast<std::ptrdiff_t>(areas.starts[row + 1]);
+    const auto found = std::lower_bound(begin, end, column);
+    return found != end && *found == column
+               ? areas.values[static_cast<std::size_t>(found - areas.columns.begin())]
+               : 0.0;
+}
+
+double to_outside(const ExchangeAreas& areas, const Elements& elements, std::size_t row) {
+    return entry(areas, row, static_cast<std::uint32_t>(elements.outside()));
 }
 
 double closure_error(const ExchangeAreas& areas, const Elements& elements, std::size_t band) {
@@ -29,28 +111,6 @@ double closure_error(const ExchangeAreas& areas, const Elements& elements, std::
         worst = std::max(worst, std::abs(sum - capacity) / capacity);
     }
     return worst;
-}
-
-double reciprocity_error(const ExchangeAreas& areas, const Elements& elements) {
-    const auto entry = [&](std::size_t i, std::uint32_t j) {
-        const auto begin = areas.columns.begin() + static_cast<std::ptrdiff_t>(areas.starts[i]);
-        const auto end = areas.columns.begin() + static_cast<std::ptrdiff_t>(areas.starts[i + 1]);
-        const auto found = std::lower_bound(begin, end, j);
-        return found != end && *found == j
-                   ? areas.values[static_cast<std::size_t>(found - areas.columns.begin())]
-                   : 0.0;
-    };
-    double difference = 0.0, total = 0.0;
-    for (std::size_t i = 0; i < areas.rows(); ++i)
-        for (std::size_t k = areas.starts[i]; k < areas.starts[i + 1]; ++k) {
-            const std::uint32_t j = areas.columns[k];
-            if (j == elements.outside()) continue;
-            const double back = entry(j, static_cast<std::uint32_t>(i));
-            // A pair that is seen from one end only is met once here but twice in the sum.
-            difference += std::abs(areas.values[k] - back) * (back > 0.0 ? 1.0 : 2.0);
-            total += areas.values[k];
-        }
-    return total > 0.0 ? difference / total : 0.0;
 }
 
 }  // namespace tyndall::radiosity

@@ -4,69 +4,72 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cmath>
+#include <numbers>
 
 #include "radiosity/point_set.h"
+#include "radiosity/row_accumulator.h"
+#include "radiosity/row_scene.h"
 
 namespace tyndall::radiosity {
 namespace {
 
-struct Row {
+// Rows that one task makes, one after the other.
+struct Rows {
+    std::vector<std::size_t> ends;
     std::vector<std::uint32_t> columns;
     std::vector<double> values;
+
+    void clear() {
+        ends.clear();
+        columns.clear();
+        values.clear();
+    }
 };
 
-// A dense row with a list of what was touched: clearing it all for every receiver would be O(N²).
-class Accumulator {
-  public:
-    explicit Accumulator(std::size_t size) : values_(size, 0.0) {}
-
-    void add(std::uint32_t column, double value) {
-        if (values_[column] == 0.0) touched_.push_back(column);
-        values_[column] += value;
-    }
-
-    Row take(double scale) {
-        std::sort(touched_.begin(), touched_.end());
-        touched_.erase(std::unique(touched_.begin(), touched_.end()), touched_.end());
-        Row row;
-        row.columns = touched_;
-        for (const auto column : touched_) {
-            row.values.push_back(scale * values_[column]);
-            values_[column] = 0.0;
-        }
-        touched_.clear();
-        return row;
-    }
-
-  private:
-    std::vector<double> values_;
-    std::vector<std::uint32_t> touched_;
+struct RayStart {
+    mesh::Ray ray;
+    mesh::WalkStart at;
 };
 
 class Walker {
   public:
     Walker(const Discretization& d, const ExchangeOptions& options, const PointSet& points)
-        : d_(d), options_(options), points_(points) {}
+        : d_(d),
+          options_(options),
+          points_(points),
+          scene_(d, options.levels, options.band,
+                 options.detail *
+                     std::sqrt(4.0 * std::numbers::pi / static_cast<double>(points.size()))) {}
 
-    Row row(ElementId id, Accumulator& accumulator) const {
+    void row(ElementId id, RowAccumulator& accumulator, Rows& rows) const {
         const std::size_t i = id.value;
         const std::uint64_t seed = hash_seed(options_.seed, i);
+        RowWalk walk(scene_,
+                     [&](std::uint32_t column, double share) { accumulator.add(column, share); });
         for (std::size_t k = 0; k < points_.size(); ++k) {
-            const auto u = points_(k, seed);
-            if (d_.elements.is_patch(i))
-                walk_from_patch(d_.elements.patches[i], u, accumulator);
-            else
-                walk_from_zone(d_.elements.zone(i), u, accumulator);
+            const RayStart start = start_of(i, points_(k, seed));
+            const auto arrival = walk.follow(start.ray, start.at);
+            if (arrival == mesh::Arrival::lost && options_.lost_rays) ++*options_.lost_rays;
         }
         const double capacity = d_.elements.capacity[i * d_.elements.bands + options_.band];
-        return accumulator.take(capacity / static_cast<double>(points_.size()));
+        const double scale = capacity / static_cast<double>(points_.size());
+        accumulator.take([&](std::uint32_t column, double sum) {
+            if (!(sum > 0.0)) return;  // nothing was left when the ray came there
+            rows.columns.push_back(column);
+            rows.values.push_back(scale * sum);
+        });
+        rows.ends.push_back(rows.columns.size());
     }
 
   private:
     using Numbers = std::array<double, point_set_dimensions>;
 
-    void walk_from_patch(PatchId patch, const Numbers& u, Accumulator& accumulator) const {
+    RayStart start_of(std::size_t i, Numbers u) const {
+        const std::uint32_t member = d_.elements.pick_member(i, u[0]);
+        return d_.elements.is_patch(i) ? on_patch(PatchId(member), u) : in_zone(ZoneId(member), u);
+    }
+
+    RayStart on_patch(PatchId patch, const Numbers& u) const {
         const Forest& forest = d_.forest;
         const auto& c = forest[patch].corners;
         const auto w = uniform_in_triangle(u[0], u[1]);
@@ -75,13 +78,11 @@ class Walker {
             w[0] * forest.point(c[0]) + w[1] * forest.point(c[1]) + w[2] * forest.point(c[2]);
         ray.direction = cosine_direction(normal_of(forest, patch), u[3], u[4]);
         const std::uint32_t facet_side = forest.base_facet_side(patch);
-        deposit(ray,
-                mesh::start_on(d_.enclosure.mesh, FacetId(facet_side / 2),
-                               facet_side % 2 ? Side::back : Side::front),
-                accumulator);
+        return {ray, mesh::start_on(d_.enclosure.mesh, FacetId(facet_side / 2),
+                                    facet_side % 2 ? Side::back : Side::front)};
     }
 
-    void walk_from_zone(ZoneId zone, const Numbers& u, Accumulator& accumulator) const {
+    RayStart in_zone(ZoneId zone, const Numbers& u) const {
         const Forest& forest = d_.forest;
         const auto& c = forest[zone].corners;
         const auto w = uniform_in_tet(u[0], u[1], u[2]);
@@ -89,43 +90,13 @@ class Walker {
         ray.origin = Point(0.0);
         for (int k = 0; k < 4; ++k) ray.origin += w[k] * forest.point(c[k]);
         ray.direction = uniform_direction(u[3], u[4]);
-        deposit(ray, {forest.base_tet(zone)}, accumulator);
-    }
-
-    void deposit(const mesh::Ray& ray, mesh::WalkStart start, Accumulator& accumulator) const {
-        const Elements& elements = d_.elements;
-        double transmittance = 1.0;
-        const auto end =
-            mesh::walk(d_.enclosure.mesh, ray, start, [&](TetId tet, double t_in, double t_out) {
-                const double extinction = d_.enclosure.extinction(tet, options_.band);
-                if (extinction == 0.0) return true;
-                return mesh::descend(d_.forest, mesh::root_zone(tet), ray, t_in, t_out,
-                                     mesh::at_leaves, [&](ZoneId zone, double s_in, double s_out) {
-                                         // −expm1: the difference of two exponentials loses digits
-                                         // when thin.
-                                         const double share =
-                                             -transmittance *
-                                             std::expm1(-extinction * (s_out - s_in));
-                                         accumulator.add(elements.of_zone[zone.value], share);
-                                         transmittance -= share;
-                                         return true;
-                                     });
-            });
-        accumulator.add(arrival(end, ray), transmittance);
-    }
-
-    std::uint32_t arrival(const mesh::WalkEnd& end, const mesh::Ray& ray) const {
-        const auto outside = static_cast<std::uint32_t>(d_.elements.outside());
-        if (end.arrival == mesh::Arrival::lost && options_.lost_rays) ++*options_.lost_rays;
-        if (end.arrival != mesh::Arrival::struck) return outside;
-        const PatchId leaf = d_.forest.leaf_at(mesh::root_patch(end.facet, end.side),
-                                               ray.origin + end.distance * ray.direction);
-        return d_.elements.of_patch[leaf.value];
+        return {ray, {forest.base_tet(zone)}};
     }
 
     const Discretization& d_;
     const ExchangeOptions& options_;
     const PointSet& points_;
+    RowScene scene_;
 };
 
 }  // namespace
@@ -134,18 +105,32 @@ void exchange_walked(const Discretization& discretization, std::span<const Eleme
                      const ExchangeOptions& options, const RowSink& sink) {
     const PointSet points(options.rays);
     const Walker walker(discretization, options, points);
-    tbb::enumerable_thread_specific<Accumulator> accumulators(discretization.elements.size() + 1);
-    // In batches, so that rows arrive in order and memory stays small.
-    constexpr std::size_t batch = 2048;
-    std::vector<Row> finished;
+    const std::size_t columns =
+        options.levels ? options.levels->columns() : discretization.elements.size() + 1;
+    tbb::enumerable_thread_specific<RowAccumulator> accumulators(columns);
+    // In batches, so that rows arrive in order and memory stays small; a task makes a run of rows,
+    // which are neighbours and walk through the same part of the trees.
+    constexpr std::size_t run = 32, batch = 128 * run;
+    std::vector<Rows> finished(batch / run);
     for (std::size_t begin = 0; begin < rows.size(); begin += batch) {
         const std::size_t end = std::min(begin + batch, rows.size());
-        finished.assign(end - begin, {});
-        tbb::parallel_for(begin, end, [&](std::size_t k) {
-            finished[k - begin] = walker.row(rows[k], accumulators.local());
+        const std::size_t runs = (end - begin + run - 1) / run;
+        tbb::parallel_for(std::size_t(0), runs, [&](std::size_t r) {
+            auto& accumulator = accumulators.local();
+            finished[r].clear();
+            for (std::size_t k = begin + r * run; k < std::min(end, begin + (r + 1) * run); ++k)
+                walker.row(rows[k], accumulator, finished[r]);
         });
-        for (std::size_t k = begin; k < end; ++k)
-            sink(rows[k], finished[k - begin].columns, finished[k - begin].values);
+        for (std::size_t r = 0; r < runs; ++r) {
+            std::size_t first = 0;
+            for (std::size_t k = 0; k < finished[r].ends.size(); ++k) {
+                const std::size_t count = finished[r].ends[k] - first;
+                sink(rows[begin + r * run + k],
+                     std::span(finished[r].columns).subspan(first, count),
+                     std::span(finished[r].values).subspan(first, count));
+                first += count;
+            }
+        }
         if (options.progress)
             options.progress({"exchange areas", double(end) / double(rows.size()),
                               discretization.elements.size(), 0.0});

@@ -64,7 +64,12 @@ class RadianceWalk {
         for (;;) {
             const GatherScene::Node& node = s_.nodes_[zone];
             if (node.child == none || depth == 128 || node.longest_edge < s_.detail_ * t_in) {
-                if (t_out > t_in && !gain(zone, extinction, t_in, t_out)) return false;
+                // A linear fit may dip below zero in a leaf's corner; radiance does not. An
+                // ancestor's may dip where it stands for lit and dark leaves, and be right in the
+                // mean.
+                const float least =
+                    node.child == none ? 0.0f : -std::numeric_limits<float>::infinity();
+                if (t_out > t_in && !gain(zone, extinction, t_in, t_out, least)) return false;
                 if (depth == 0) return true;
                 t_in = std::max(t_in, t_out);
                 zone = stack[--depth].zone;
@@ -92,7 +97,8 @@ class RadianceWalk {
         return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
     }
 
-    bool gain(std::uint32_t zone, const float* extinction, float t_in, float t_out) {
+    // `least`: below which J is not taken.
+    bool gain(std::uint32_t zone, const float* extinction, float t_in, float t_out, float least) {
         float most = 0.0f;
         for (std::size_t b = 0; b < bands_; ++b) {
             const GatherScene::Source& source = s_.sources_[zone * bands_ + b];
@@ -100,9 +106,8 @@ class RadianceWalk {
             const float slope = dot(source.gradient, direction_);
             const SegmentWeights w = segment_weights(extinction[b] * (t_out - t_in));
             float& transmittance = transmittance_[b];
-            // A linear fit may dip below zero in a corner; radiance does not.
-            radiance_[b] += transmittance * (w.front * std::max(0.0f, start + t_in * slope) +
-                                             w.back * std::max(0.0f, start + t_out * slope));
+            radiance_[b] += transmittance * (w.front * std::max(least, start + t_in * slope) +
+                                             w.back * std::max(least, start + t_out * slope));
             transmittance *= static_cast<float>(w.transmittance);
             most = std::max(most, transmittance);
         }
@@ -140,8 +145,8 @@ void radiance_along(const GatherScene& scene, const mesh::Ray& ray, mesh::WalkSt
     }
 }
 
-void gather(const GatherScene& scene, const GatherPoint& point, const PointSet& points,
-            std::uint64_t seed, std::span<Gathered> incident) {
+void gather(const GatherScene& scene, const LitPatches* lit, const GatherPoint& point,
+            const PointSet& points, std::uint64_t seed, std::span<Gathered> incident) {
     const std::size_t bands = incident.size();
     thread_local std::vector<double> radiance, halves;
     radiance.resize(bands);
@@ -156,9 +161,11 @@ void gather(const GatherScene& scene, const GatherPoint& point, const PointSet& 
         double* half = halves.data() + (2 * k < points.size() ? 0 : bands);
         for (std::size_t b = 0; b < bands; ++b) half[b] += radiance[b];
     }
+    radiance.assign(bands, 0.0);
+    if (lit) lit->gather({point.x, point.start.tet, point.normal, point.on_surface()}, radiance);
     const double count = static_cast<double>(points.size());
     for (std::size_t b = 0; b < bands; ++b) {
-        incident[b].mean = (halves[b] + halves[bands + b]) / count;
+        incident[b].mean = radiance[b] + (halves[b] + halves[bands + b]) / count;
         incident[b].spread = std::abs(halves[b] - halves[bands + b]) / count;
     }
 }

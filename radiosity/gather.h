@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "radiosity/fields.h"
+#include "radiosity/lit_patches.h"
 #include "radiosity/point_set.h"
 
 namespace tyndall::radiosity {
@@ -61,9 +61,10 @@ class GatherScene {
 void radiance_along(const GatherScene& scene, const mesh::Ray& ray, mesh::WalkStart start,
                     std::span<double> radiance);
 
-// H at a point from the points of the set, scrambled by `seed`: one value a band.
+// H at a point from the points of the set, scrambled by `seed`: one value a band. What `lit` holds
+// must not be in the scene's sources.
 // Cost: points.size() walks. Error: see `spread`.
-void gather(const GatherScene& scene, const GatherPoint& point, const PointSet& points,
-            std::uint64_t seed, std::span<Gathered> incident);
+void gather(const GatherScene& scene, const LitPatches* lit, const GatherPoint& point,
+            const PointSet& points, std::uint64_t seed, std::span<Gathered> incident);
 
 }  // namespace tyndall::radiosity

@@ -19,11 +19,13 @@ class Occlusion {
 
     // Whether an opaque facet lies between x and x + path, the ends apart. Thread-safe.
     bool blocked(Point x, Direction path) const;
+    // Length of a path's ends that is not looked at [m].
+    double end_gap() const { return gap_; }
 
   private:
     struct Scene;
     std::unique_ptr<Scene> scene_;
-    double gap_ = 0.0;  // of a path's ends that is not looked at [m]
+    double gap_ = 0.0;
 };
 
 }  // namespace tyndall::radiosity

@@ -29,7 +29,7 @@ enum class Refinement {
 enum class Start {
     single_zone,  // one zone a medium, the input surfaces as patches
     base,         // the base tetrahedra and facets
-    uniform,      // base tetrahedra and facets bisected down to `element_size`
+    uniform,      // these bisected down to `element_size`, or to what a room needs
     mesh,         // the user's own tetrahedra
 };
 
@@ -43,8 +43,8 @@ struct SolveOptions {
     double error = 0.01;  // goal: estimated relative error of the picture, or of the solution [-]
     std::string exchange = "walked";  // method for exchange areas
     std::string solver = "gmres";     // method for the linear system
-    Start start = Start::base;
-    Refinement refinement = Refinement::view;
+    Start start = Start::uniform;
+    Refinement refinement = Refinement::aligned;
     Radiance radiance = Radiance::linear;
     DirectLightMode direct_light = DirectLightMode::closed_form;
     double element_size =
@@ -54,10 +54,10 @@ struct SolveOptions {
     double max_time = 0.0;                // wall time; 0: no limit [s]
     std::size_t max_passes = 12;          // of refinement
     std::size_t rays = 256;               // walked from each element for its row
-    double row_detail = 0.0;  // theta: rays deposit in ancestors of size ≤ theta t sqrt(4 pi /
-                              // rays); 0: in the elements alone [-]
-    std::size_t promotions = 0;      // times the fine mesh is promoted and solved anew
-    std::size_t gather_rays = 256;   // walked from each point of the last, fine gather
+    double row_detail = 0.0;     // theta: rays deposit in ancestors of size ≤ theta t sqrt(4 pi /
+                                 // rays); 0: in the elements alone [-]
+    std::size_t promotions = 0;  // times the fine mesh is promoted and solved anew
+    std::size_t gather_rays = 128;  // of the last, fine gather: a point of a surface; half in zones
     double solver_tolerance = 1e-6;  // relative residual [-]
     std::size_t solver_iterations = 200;
     std::uint64_t seed = 1;

@@ -92,7 +92,7 @@ Probe::Place Probe::place(Point x, Direction normal) const {
 
 std::vector<Gathered> Probe::gathered(const Place& place, Direction normal) const {
     std::vector<Gathered> incident(solution_.enclosure->bands);
-    gather(scene_, {place.x, {place.tet}, normal}, points_, options_.seed, incident);
+    gather(scene_, nullptr, {place.x, {place.tet}, normal}, points_, options_.seed, incident);
     return incident;
 }
 

@@ -72,6 +72,13 @@ class DirectRefiner {
     std::vector<double> zone_centroid_, patch_centroid_;  // H^A at centroids, by node and band
 };
 
+// What indirect light is gathered from.
+struct IndirectSources {
+    Fields fields;                    // r of the leaves, coarsened, without what `lit` holds
+    const LitPatches* lit = nullptr;  // what patches reflect of direct light
+    double detail = 0.0;              // see GatherScene [-]
+};
+
 // Indirect light: gathered at the corners of the coarse elements and in the middle of their edges;
 // where interpolation departs by more than the noise of the gather, the element is bisected and so
 // on. An element below one that was found good enough takes over its linear function.
@@ -81,20 +88,52 @@ class IndirectRefiner {
     IndirectRefiner(const Enclosure& enclosure, ElementMesh& mesh, const Elements& coarse,
                     std::size_t rays, std::uint64_t seed);
 
-    // Gathers from `sources` (by value: new nodes take over their parents' functions on the way).
-    RefineResult refine(Fields sources, double detail, const Importance& importance, double goal,
-                        const RefineLimits& limits, const ProgressCallback& progress);
+    // Zones first, from the coarse solution; then patches, which see the haze beside them, from
+    // sources in which the zones' values stand already. Sources by value: new nodes take over their
+    // parents' functions on the way.
+    RefineResult refine_zones(IndirectSources sources, const Importance& importance, double goal,
+                              const RefineLimits& limits, const ProgressCallback& progress);
+    RefineResult refine_patches(IndirectSources sources, const Importance& importance, double goal,
+                                const RefineLimits& limits, const ProgressCallback& progress);
 
     // The linear function of a leaf: its own, or that of the settled element above it.
     Affine field(ZoneId zone, std::size_t band);
     Affine field(PatchId patch, std::size_t band);
     // Departure from linear found at the settled element, mean over bands [W/m^2/sr].
-    double error(ZoneId zone) const { return zone_error_[settled(zone, zone_settled_).value]; }
-    double error(PatchId patch) const { return patch_error_[settled(patch, patch_settled_).value]; }
+    template <class Node>
+    double error(Node leaf) const {
+        return settled_of(leaf).errors[settled_above(leaf).value];
+    }
 
   private:
+    // By node: where the descent ended, and the error left there.
+    struct Settled {
+        std::vector<bool> flags;
+        std::vector<float> errors;
+        void resize(std::size_t nodes) {
+            flags.resize(nodes);
+            errors.resize(nodes);
+        }
+    };
+    Settled& settled_of(ZoneId) { return zones_; }
+    Settled& settled_of(PatchId) { return patches_; }
+    const Settled& settled_of(ZoneId) const { return zones_; }
+    const Settled& settled_of(PatchId) const { return patches_; }
     template <class Node>
-    Node settled(Node node, const std::vector<bool>& flags) const;
+    Node settled_above(Node node) const;
+    template <class Node>
+    RefineResult refine(std::vector<Node> frontier, IndirectSources sources,
+                        const Importance& importance, double goal, const RefineLimits& limits,
+                        const ProgressCallback& progress);
+    template <class Node>
+    auto quadratic(Node node, std::size_t band);
+    template <class Node>
+    Affine linear_part(Node leaf, std::size_t band);
+    void divide(const std::vector<PatchId>& patches);
+    double scatter(ZoneId zone) const;
+    double scatter(PatchId patch) const;
+    void bisect(ZoneId zone, std::array<int, 2> edge) { mesh_.bisect(zone, edge); }
+    void bisect(PatchId patch, std::array<int, 2>) { mesh_.bisect(patch); }
     template <class Node>
     void collect(const std::vector<Node>& frontier, std::vector<SampleId>& ids);
     // Error beyond the noise, and the edge where it is largest.
@@ -104,10 +143,10 @@ class IndirectRefiner {
     const Enclosure& enclosure_;
     ElementMesh& mesh_;
     const Elements& coarse_;
-    PointSet points_;
+    // Zones are seen many at a time, and need half the rays.
+    PointSet on_surfaces_, in_zones_;
     std::uint64_t seed_;
-    std::vector<bool> zone_settled_, patch_settled_;  // by node
-    std::vector<float> zone_error_, patch_error_;     // by node
+    Settled zones_, patches_;
 };
 
 }  // namespace tyndall::radiosity

@@ -1,24 +1,48 @@
 #include <algorithm>
 #include <cmath>
 
+#include "radiosity/quadratic.h"
 #include "radiosity/refine.h"
 
 namespace tyndall::radiosity {
 namespace {
 
 // A departure within this many standard deviations of the gather's noise is taken for noise. On
-// patches, which are seen as they are, one is enough: an element too many costs less than a facet
-// that shows.
+// patches, which share their directions and are seen as they are, a quarter is enough: an element
+// too many costs less than a facet that shows.
 template <class Node>
-constexpr double deviations = std::is_same_v<Node, PatchId> ? 1.0 : 2.0;
+constexpr double deviations = std::is_same_v<Node, PatchId> ? 0.25 : 2.0;
+// A settled element keeps the quadratic through its samples, of which its leaves hold linear parts:
+// about a quarter of the departure from linear remains where the function is smooth, about half at
+// the edges of light on surfaces.
+template <class Node>
+constexpr double remaining = std::is_same_v<Node, PatchId> ? 0.5 : 0.25;
+
 // A departure joins three samples of equal variance with weights 1, −1/2, −1/2.
 const double departure_noise = std::sqrt(1.5);
+
+// Multiple scattering is smooth: the descent starts this many levels above the solved zones.
+constexpr int levels_above = 3;
+
+std::vector<ZoneId> ancestors(const Forest& forest, std::vector<ZoneId> nodes) {
+    for (ZoneId& node : nodes)
+        for (int k = 0; k < levels_above && forest[node].parent.valid(); ++k)
+            node = forest[node].parent;
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    return nodes;
+}
 
 }  // namespace
 
 IndirectRefiner::IndirectRefiner(const Enclosure& enclosure, ElementMesh& mesh,
                                  const Elements& coarse, std::size_t rays, std::uint64_t seed)
-    : enclosure_(enclosure), mesh_(mesh), coarse_(coarse), points_(rays), seed_(seed) {}
+    : enclosure_(enclosure),
+      mesh_(mesh),
+      coarse_(coarse),
+      on_surfaces_(rays),
+      in_zones_((rays + 1) / 2),
+      seed_(seed) {}
 
 template <class Node>
 void IndirectRefiner::collect(const std::vector<Node>& frontier, std::vector<SampleId>& ids) {
@@ -70,107 +94,144 @@ std::pair<double, std::array<int, 2>> IndirectRefiner::measure(Node node) {
             }
         }
     const double points = 0.5 * count * (count - 1);
-    return {std::sqrt(square / points) / static_cast<double>(enclosure_.bands), edge};
+    return {remaining<Node> * std::sqrt(square / points) / static_cast<double>(enclosure_.bands),
+            edge};
 }
 
-RefineResult IndirectRefiner::refine(Fields sources, double detail, const Importance& importance,
-                                     double goal, const RefineLimits& limits,
-                                     const ProgressCallback& progress) {
+double IndirectRefiner::scatter(ZoneId zone) const {
+    return mean_over_bands(enclosure_.media[medium_of(enclosure_, mesh_.forest(), zone)].albedo);
+}
+
+double IndirectRefiner::scatter(PatchId patch) const {
+    return mean_over_bands(
+        enclosure_.sides[side_of(enclosure_, mesh_.forest(), patch)].reflectance);
+}
+
+template <class Node>
+RefineResult IndirectRefiner::refine(std::vector<Node> frontier, IndirectSources sources,
+                                     const Importance& importance, double goal,
+                                     const RefineLimits& limits, const ProgressCallback& progress) {
     RefineResult result;
     const Forest& forest = mesh_.forest();
-    std::vector<ZoneId> zones = coarse_.zones, next_zones;
-    std::vector<PatchId> patches = coarse_.patches, next_patches;
-    double pieces = static_cast<double>(zones.size() + patches.size());
-    while (!zones.empty() || !patches.empty()) {
+    Settled& settled = settled_of(Node());
+    std::vector<Node> next, shown;
+    double pieces = static_cast<double>(frontier.size());
+    while (!frontier.empty()) {
         std::vector<SampleId> ids;
-        collect(zones, ids);
-        collect(patches, ids);
-        result.rays += mesh_.samples().gather_at(
-            ids, GatherScene(enclosure_, forest, sources, detail), points_, seed_);
-        for (auto* flags : {&zone_settled_, &patch_settled_})
-            flags->resize(std::max(forest.zone_count(), forest.patch_count()));
-        for (auto* errors : {&zone_error_, &patch_error_})
-            errors->resize(std::max(forest.zone_count(), forest.patch_count()));
+        collect(frontier, ids);
+        const GatherScene scene(enclosure_, forest, sources.fields, sources.detail);
+        result.rays +=
+            mesh_.samples().gather_at(ids, scene, sources.lit, on_surfaces_, in_zones_, seed_);
+        settled.resize(std::max(forest.zone_count(), forest.patch_count()));
         result.stopped =
-            progress &&
-            !progress({"indirect light", 1.0 - double(zones.size() + patches.size()) / pieces,
-                       mesh_.leaf_count(), 0.0});
+            progress && !progress({"indirect light", 1.0 - double(frontier.size()) / pieces,
+                                   mesh_.leaf_count(), 0.0});
         result.limited =
             mesh_.leaf_count() >= limits.max_elements || mesh_.memory() > limits.max_memory;
         const bool descend = !result.stopped && !result.limited;
         const double threshold = goal / pieces;
-        next_zones.clear();
-        next_patches.clear();
-        for (const ZoneId z : zones) {
-            const auto [error, edge] = measure(z);
-            const double a =
-                mean_over_bands(enclosure_.media[medium_of(enclosure_, forest, z)].albedo);
-            const double share = importance.of(z) * a * a * error * error;
-            if (!descend || share <= threshold || forest[z].longest_edge <= limits.smallest_edge) {
-                zone_settled_[z.value] = true;
-                zone_error_[z.value] = static_cast<float>(error);
-                result.squared_error += share;
+        next.clear();
+        for (const Node node : frontier) {
+            const auto [error, edge] = measure(node);
+            const double x = scatter(node) * error, share = importance.of(node) * x * x;
+            if (descend && share > threshold && forest[node].longest_edge > limits.smallest_edge) {
+                if (forest.is_leaf(node)) bisect(node, edge);
+                const Node first = forest[node].first_child;
+                next.insert(next.end(), {first, Node(first.value + 1ull)});
+                pieces += 1.0;
                 continue;
             }
-            if (forest.is_leaf(z)) mesh_.bisect(z, edge);
-            const ZoneId first = forest[z].first_child;
-            next_zones.insert(next_zones.end(), {first, ZoneId(first.value + 1ull)});
-            pieces += 1.0;
+            settled.flags[node.value] = true;
+            settled.errors[node.value] = static_cast<float>(error);
+            result.squared_error += share;
+            if (descend && share > remaining<Node> * remaining<Node> * threshold)
+                shown.push_back(node);
         }
-        for (const PatchId p : patches) {
-            const double error = measure(p).first;
-            const double a =
-                mean_over_bands(enclosure_.sides[side_of(enclosure_, forest, p)].reflectance);
-            const double share = importance.of(p) * a * a * error * error;
-            if (!descend || share <= threshold || forest[p].longest_edge <= limits.smallest_edge) {
-                patch_settled_[p.value] = true;
-                patch_error_[p.value] = static_cast<float>(error);
-                result.squared_error += share;
-                continue;
-            }
-            if (forest.is_leaf(p)) mesh_.bisect(p);
-            const PatchId first = forest[p].first_child;
-            next_patches.insert(next_patches.end(), {first, PatchId(first.value + 1ull)});
-            pieces += 1.0;
-        }
-        extend(forest, sources);
-        zones.swap(next_zones);
-        patches.swap(next_patches);
+        extend(forest, sources.fields);
+        frontier.swap(next);
     }
+    if constexpr (std::is_same_v<Node, PatchId>) divide(shown);
     return result;
 }
 
+RefineResult IndirectRefiner::refine_zones(IndirectSources sources, const Importance& importance,
+                                           double goal, const RefineLimits& limits,
+                                           const ProgressCallback& progress) {
+    return refine(ancestors(mesh_.forest(), coarse_.member_zones()), std::move(sources), importance,
+                  goal, limits, progress);
+}
+
+RefineResult IndirectRefiner::refine_patches(IndirectSources sources, const Importance& importance,
+                                             double goal, const RefineLimits& limits,
+                                             const ProgressCallback& progress) {
+    return refine(coarse_.member_patches(), std::move(sources), importance, goal, limits, progress);
+}
+
+// Patches are seen as they are: a quadratic that one leaf holds is given the leaves that show it.
+void IndirectRefiner::divide(const std::vector<PatchId>& patches) {
+    const Forest& forest = mesh_.forest();
+    for (const PatchId patch : patches) {
+        if (forest.is_leaf(patch)) mesh_.bisect(patch);
+        const PatchId first = forest[patch].first_child;
+        for (const PatchId child : {first, PatchId(first.value + 1ull)})
+            if (forest.is_leaf(child)) mesh_.bisect(child);
+    }
+}
+
 template <class Node>
-Node IndirectRefiner::settled(Node node, const std::vector<bool>& flags) const {
+Node IndirectRefiner::settled_above(Node node) const {
+    const std::vector<bool>& flags = settled_of(node).flags;
     while (!(node.value < flags.size() && flags[node.value])) node = mesh_.forest()[node].parent;
     return node;
 }
 
-Affine IndirectRefiner::field(ZoneId zone, std::size_t band) {
-    const ZoneId node = settled(zone, zone_settled_);
+template <class Node>
+auto IndirectRefiner::quadratic(Node node, std::size_t band) {
     const auto samples = mesh_.corners(node);
-    std::array<Point, 4> points;
-    std::array<double, 4> values;
-    for (int k = 0; k < 4; ++k) {
-        points[k] = mesh_.forest().point(mesh_.forest()[node].corners[k]);
-        values[k] = mesh_.samples().indirect(samples[k], band);
+    constexpr std::size_t count = std::tuple_size_v<decltype(samples)>;
+    Quadratic<count> q;
+    std::size_t edge = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        q.points[i] = mesh_.forest().point(mesh_.forest()[node].corners[i]);
+        q.at_corners[i] = mesh_.samples().indirect(samples[i], band);
+        for (std::size_t j = i + 1; j < count; ++j)
+            q.at_middles[edge++] = mesh_.samples().indirect(mesh_.middle(node, i, j), band);
     }
-    return interpolate(points, values);
+    return q;
+}
+
+template <class Node>
+Affine IndirectRefiner::linear_part(Node leaf, std::size_t band) {
+    const Forest& forest = mesh_.forest();
+    constexpr bool is_zone = std::is_same_v<Node, ZoneId>;
+    const Node node = settled_above(leaf);
+    const auto q = quadratic(node, band);
+    constexpr std::size_t count = std::tuple_size_v<decltype(q.points)>;
+    std::array<Point, count> points;
+    std::array<double, count> values;
+    for (std::size_t k = 0; k < count; ++k) {
+        points[k] = forest.point(forest[leaf].corners[k]);
+        values[k] = std::max(0.0, q.at(points[k]));
+    }
+    const Affine f = interpolate(points, values);
+    // Zones are seen as integrals along rays, where the mean counts.
+    if (!is_zone) return f;
+    const double mean = leaf == node
+                            ? q.mean()
+                            : 0.05 * (values[0] + values[1] + values[2] + values[count - 1]) +
+                                  0.8 * q.at(forest.centroid(leaf));
+    return with_mean(f, forest.centroid(leaf), std::max(0.0, mean));
+}
+
+Affine IndirectRefiner::field(ZoneId zone, std::size_t band) {
+    return linear_part(zone, band);
 }
 
 Affine IndirectRefiner::field(PatchId patch, std::size_t band) {
-    const PatchId node = settled(patch, patch_settled_);
-    const auto samples = mesh_.corners(node);
-    std::array<Point, 3> points;
-    std::array<double, 3> values;
-    for (int k = 0; k < 3; ++k) {
-        points[k] = mesh_.forest().point(mesh_.forest()[node].corners[k]);
-        values[k] = mesh_.samples().indirect(samples[k], band);
-    }
-    return interpolate(points, values);
+    return linear_part(patch, band);
 }
 
-template ZoneId IndirectRefiner::settled(ZoneId, const std::vector<bool>&) const;
-template PatchId IndirectRefiner::settled(PatchId, const std::vector<bool>&) const;
+template ZoneId IndirectRefiner::settled_above(ZoneId) const;
+template PatchId IndirectRefiner::settled_above(PatchId) const;
 
 }  // namespace tyndall::radiosity

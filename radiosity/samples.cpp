@@ -2,6 +2,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include <cmath>
+
 namespace tyndall::radiosity {
 namespace {
 
@@ -13,6 +15,13 @@ std::size_t dimension(const mesh::Carrier& carrier) {
     std::size_t n = 0;
     while (n < 4 && carrier[n].valid()) ++n;
     return n - 1;
+}
+
+// The same for points on parallel planes that face the same way, to rounding.
+std::uint64_t plane_seed(std::uint64_t seed, Direction normal) {
+    for (int axis = 0; axis < 3; ++axis)
+        seed = hash_seed(seed, static_cast<std::uint64_t>(std::llround(1e3 * normal[axis])));
+    return seed;
 }
 
 }  // namespace
@@ -96,21 +105,31 @@ void SampleSet::light(const DirectLight& light) {
 }
 
 std::size_t SampleSet::gather_at(const std::vector<SampleId>& ids, const GatherScene& scene,
-                                 const PointSet& points, std::uint64_t seed) {
+                                 const LitPatches* lit, const PointSet& on_surfaces,
+                                 const PointSet& in_zones, std::uint64_t seed) {
     indirect_.resize(points_.size() * bands_);
     gathered_.resize(points_.size());
     std::vector<SampleId> missing;
+    std::size_t rays = 0;
     for (const SampleId id : ids) {
         if (gathered_[id.value]) continue;
         gathered_[id.value] = true;
         missing.push_back(id);
+        rays += (points_[id.value].on_surface() ? on_surfaces : in_zones).size();
     }
     tbb::parallel_for(std::size_t(0), missing.size(), [&](std::size_t k) {
         const std::size_t i = missing[k].value;
-        gather(scene, points_[i], points, seed,
-               std::span<Gathered>(indirect_.data() + i * bands_, bands_));
+        const GatherPoint& point = points_[i];
+        const std::span<Gathered> out(indirect_.data() + i * bands_, bands_);
+        // A surface is seen as it is: on one plane all share their directions, so that noise is
+        // smooth. Zones are seen many at a time: theirs are independent, so that noise averages
+        // out.
+        if (point.on_surface())
+            gather(scene, lit, point, on_surfaces, plane_seed(seed, point.normal), out);
+        else
+            gather(scene, lit, point, in_zones, hash_seed(seed, i), out);
     });
-    return missing.size() * points.size();
+    return rays;
 }
 
 }  // namespace tyndall::radiosity

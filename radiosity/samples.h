@@ -34,7 +34,11 @@ class SampleSet {
     // Gathers at those of `ids` that have not been gathered yet, in parallel. Returns the rays
     // walked.
     std::size_t gather_at(const std::vector<SampleId>& ids, const GatherScene& scene,
-                          const PointSet& points, std::uint64_t seed);
+                          const LitPatches* lit, const PointSet& on_surfaces,
+                          const PointSet& in_zones, std::uint64_t seed);
+
+    // What has been gathered is to be gathered anew, from other sources.
+    void forget_indirect() { gathered_.assign(gathered_.size(), false); }
 
     double direct(SampleId id, std::size_t band) const { return direct_[id.value * bands_ + band]; }
     double indirect(SampleId id, std::size_t band) const {

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "mesh/file_bytes.h"
 #include "mesh/input_error.h"
 #include "radiosity/report_json.h"
@@ -77,6 +79,13 @@ void write_coarse(Hdf5Writer& file, const ElementValues& coarse) {
     file.array(folder + "/zones", zones);
     file.array(folder + "/of_patch", coarse.elements.of_patch);
     file.array(folder + "/of_zone", coarse.elements.of_zone);
+    if (!coarse.elements.member_starts.empty()) {
+        const auto& starts = coarse.elements.member_starts;
+        file.array(folder + "/member_starts",
+                   std::vector<std::uint32_t>(starts.begin(), starts.end()));
+        file.array(folder + "/members", coarse.elements.members);
+        file.array(folder + "/member_ends", coarse.elements.member_ends);
+    }
     file.array(folder + "/capacity", coarse.elements.capacity);
     file.array(folder + "/scatter", coarse.elements.scatter);
     file.array(folder + "/emission", coarse.elements.emission);
@@ -95,6 +104,25 @@ std::vector<std::uint32_t> read_indices(const Hdf5Reader& file, const std::strin
     return values;
 }
 
+// Of elements that are clusters.
+void read_members(const Hdf5Reader& file, const std::string& folder, const Forest& forest,
+                  Elements& e) {
+    e.members = read_indices(file, folder + "/members",
+                             std::max(forest.patch_count(), forest.zone_count()), false);
+    const auto starts = read_indices(file, folder + "/member_starts", e.members.size() + 1, false);
+    expect_size(file, folder + "/member_starts", starts.size(), e.size() + 1);
+    e.member_starts.assign(starts.begin(), starts.end());
+    if (starts.front() != 0 || starts.back() != e.members.size() ||
+        std::adjacent_find(starts.begin(), starts.end(), std::greater_equal<>()) != starts.end())
+        file.fail(fmt::format("'{}/member_starts' does not ascend", folder));
+    for (std::size_t k = 0; k < e.members.size(); ++k)
+        if (e.members[k] >=
+            (k < starts[e.patches.size()] ? forest.patch_count() : forest.zone_count()))
+            file.fail(fmt::format("'{}/members' points beyond its table", folder));
+    e.member_ends = file.array<double>(folder + "/member_ends");
+    expect_size(file, folder + "/member_ends", e.member_ends.size(), e.members.size());
+}
+
 ElementValues read_coarse(const Hdf5Reader& file, const Forest& forest, std::size_t bands) {
     const std::string folder = root + "/coarse";
     ElementValues coarse;
@@ -106,6 +134,7 @@ ElementValues read_coarse(const Hdf5Reader& file, const Forest& forest, std::siz
         e.zones.push_back(ZoneId(zone));
     e.of_patch = read_indices(file, folder + "/of_patch", e.size(), true);
     e.of_zone = read_indices(file, folder + "/of_zone", e.size(), true);
+    if (file.has(folder + "/members")) read_members(file, folder, forest, e);
     const auto read = [&](const std::string& name, std::vector<double>& values) {
         values = file.array<double>(folder + "/" + name);
         expect_size(file, folder + "/" + name, values.size(), e.size() * bands);

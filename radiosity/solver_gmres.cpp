@@ -1,5 +1,3 @@
-#include <tbb/parallel_for.h>
-
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <unsupported/Eigen/IterativeSolvers>
@@ -45,17 +43,12 @@ class SystemMatrix : public Eigen::EigenBase<SystemMatrix> {
 
 std::vector<double> reflect(const LinearProblem& problem, std::span<const double> radiance) {
     const Elements& e = problem.elements;
-    const ExchangeAreas& areas = problem.areas;
-    std::vector<double> result(e.size(), 0.0);
-    tbb::parallel_for(std::size_t(0), e.size(), [&](std::size_t i) {
+    std::vector<double> result = multiply(problem.areas, e, radiance);
+    for (std::size_t i = 0; i < e.size(); ++i) {
         const double capacity = e.capacity[i * e.bands + problem.band];
-        if (!(capacity > 0.0)) return;
-        double sum = 0.0;
-        for (std::size_t k = areas.starts[i]; k < areas.starts[i + 1]; ++k)
-            if (const auto j = areas.columns[k]; j != e.outside())
-                sum += areas.values[k] * radiance[j];
-        result[i] = e.scatter[i * e.bands + problem.band] * sum / capacity;
-    });
+        result[i] =
+            capacity > 0.0 ? e.scatter[i * e.bands + problem.band] * result[i] / capacity : 0.0;
+    }
     return result;
 }
 

@@ -139,10 +139,11 @@ TEST_CASE("Furnace: everything in rows is 1", "[furnace]") {
         INFO(path.filename());
         const auto enclosure = std::make_shared<const Enclosure>(furnace(path).enclosure);
         const Solution solution = solve_adaptively(enclosure, quick);
-        // Rows close to 1e-12 and the residual is 1e-9; 1/(1 − a) makes up to a hundred times that.
+        // Rows are kept in single precision and close to 1e-7 at worst, 1e-9 in the mean; the
+        // residual is 1e-9; 1/(1 − a) makes up to a hundred times that.
         CHECK(largest_departure(solution.coarse.radiance) < 1e-6);
         CHECK(largest_departure(solution.coarse.incident) < 1e-6);
-        CHECK(solution.report.closure_error < 1e-12);
+        CHECK(solution.report.closure_error < 1e-7);
         // What is gathered of it, and interpolated, is 1 as well.
         double most = 0.0;
         const Forest& forest = solution.forest;

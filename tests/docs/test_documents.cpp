@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "cli/scene_file.h"
+#include "cli/study_file.h"
 
 namespace {
 
@@ -47,18 +48,23 @@ std::vector<std::string> scenes_in(const std::string& document) {
 
 }  // namespace
 
-// TYNDALL_UPDATE_DOCUMENTS=1 build/release/bin/tests_docs writes the reference anew.
-TEST_CASE("the guide's reference lists every key, as the program knows them") {
-    const fs::path guide = root / "docs/guide/02-scene-file.md";
+// TYNDALL_UPDATE_DOCUMENTS=1 build/release/bin/tests_docs writes the references anew.
+static void check_reference(const char* guide_name, const std::string& reference) {
+    const fs::path guide = root / guide_name;
     const std::string begin = "<!-- begin: every key, written by tests/docs -->\n\n";
     std::string document = text_of(guide);
     const auto at = document.find(begin);
     REQUIRE(at != std::string::npos);
     document.erase(at + begin.size());
-    document += tyndall::cli::scene_file_reference();
+    document += reference;
     if (std::getenv("TYNDALL_UPDATE_DOCUMENTS")) write(guide, document);
     INFO("Run TYNDALL_UPDATE_DOCUMENTS=1 build/release/bin/tests_docs, and read what it changed.");
     CHECK(document == text_of(guide));
+}
+
+TEST_CASE("the guide's references list every key, as the program knows them") {
+    check_reference("docs/guide/02-scene-file.md", tyndall::cli::scene_file_reference());
+    check_reference("docs/guide/06-studies.md", tyndall::cli::study_file_reference());
 }
 
 TEST_CASE("whole scenes in the documents can be read") {

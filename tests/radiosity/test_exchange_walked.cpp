@@ -60,13 +60,14 @@ TEST_CASE("Walked rows close, and no entry is negative", "[exchange]") {
     const auto areas =
         all_rows(exchange_walked, {enclosure, forest, elements}, {.rays = 128, .progress = {}});
     REQUIRE(areas.rows() == elements.size());
-    // Each of 128 rays gives away what it has; what remains is rounding.
-    CHECK(closure_error(areas, elements, 0) < 1e-12);
+    // Each of 128 rays gives away what it has. Entries are kept in single precision, each with
+    // what rounding left of the one before: what remains is at most the last one's, 6e-8 of it.
+    CHECK(closure_error(areas, elements, 0) < 1e-7);
     bool ascending = true;
     double least = 0.0, outside = 0.0;
     for (std::size_t i = 0; i < areas.rows(); ++i)
         for (std::size_t k = areas.starts[i]; k < areas.starts[i + 1]; ++k) {
-            least = std::min(least, areas.values[k]);
+            least = std::min(least, double(areas.values[k]));
             if (areas.columns[k] == elements.outside()) outside += areas.values[k];
             if (k > areas.starts[i])
                 ascending = ascending && areas.columns[k - 1] < areas.columns[k];
@@ -97,7 +98,8 @@ TEST_CASE("Rows asked for are the rows given, whatever the order", "[exchange]")
             REQUIRE(columns.size() == all.starts[id.value + 1] - begin);
             for (std::size_t k = 0; k < columns.size(); ++k) {
                 REQUIRE(columns[k] == all.columns[begin + k]);
-                REQUIRE(values[k] == all.values[begin + k]);
+                // What is kept is rounded, and has the rounding of the entry before added.
+                REQUIRE(all.values[begin + k] == Approx(values[k]).epsilon(1e-6).margin(1e-9));
             }
         });
     CHECK(next == some.size());
@@ -126,7 +128,7 @@ TEST_CASE("Closure and reciprocity errors are what their headers say", "[exchang
     ExchangeAreas areas;
     areas.starts = {0, 2, 4, 5};
     areas.columns = {1, 3, 0, 2, 3};
-    areas.values = {1.0, 1.0, 3.0, 1.0, 0.5};
+    areas.values = {1.0f, 1.0f, 3.0f, 1.0f, 0.5f};
     CHECK(closure_error(areas, elements, 0) == 0.5);
     // Σ_ij |S_ij − S_ji| = 2·2 + 2·1 over Σ S_ij = 5.
     CHECK(reciprocity_error(areas, elements) == Approx(6.0 / 5.0));

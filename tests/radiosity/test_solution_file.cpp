@@ -17,6 +17,7 @@ using Catch::Matchers::Contains;
 #include "radiosity/probe.h"
 #include "radiosity/report_json.h"
 #include "radiosity/solution_file.h"
+#include "radiosity/start_elements.h"
 #include "support/box_mesh.h"
 
 namespace {
@@ -161,6 +162,27 @@ TEST_CASE("a solution comes back from its file to the last bit") {
     const auto b = Probe(back, {64, 1}).in_space({0.3, 0.6, 0.2});
     CHECK(a.source == b.source);
     CHECK(a.incident == b.incident);
+}
+
+TEST_CASE("a solution from a single zone comes back with its clusters") {
+    const Folder folder;
+    const auto path = folder.path / "solution.vtkhdf";
+    Solution solution = small_solution();
+    auto& coarse = solution.coarse;
+    coarse.elements = start_elements(*solution.enclosure, solution.forest, Start::single_zone);
+    for (auto* values : {&coarse.radiance, &coarse.incident, &coarse.incident_direct})
+        values->assign(coarse.elements.capacity.size(), 0.25);
+    REQUIRE(coarse.elements.members.size() > coarse.elements.size());
+    write_solution(path, solution);
+    const auto back = read_solution(path).solution.coarse.elements;
+    CHECK(back.member_starts == coarse.elements.member_starts);
+    CHECK(back.members == coarse.elements.members);
+    CHECK(back.member_ends == coarse.elements.member_ends);
+    CHECK(back.of_patch == coarse.elements.of_patch);
+    // Members that do not exist are refused.
+    coarse.elements.members.back() = 1u << 30;
+    write_solution(path, solution);
+    CHECK_THROWS_AS(read_solution(path), mesh::InputError);
 }
 
 TEST_CASE("files that are no solutions, or not all of one, are refused") {

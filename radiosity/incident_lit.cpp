@@ -1,0 +1,60 @@
+#include "radiosity/incident_lit.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+
+namespace tyndall::radiosity {
+namespace {
+
+// Points of degree 2 on an element, each with its part of the area or volume.
+std::vector<std::pair<Receiver, double>> quadrature(const Enclosure& enclosure,
+                                                    const Forest& forest, PatchId patch) {
+    const auto side = forest.base_facet_side(patch);
+    std::vector<std::pair<Receiver, double>> points;
+    for (const VertexId corner : forest[patch].corners)
+        points.push_back(
+            {{0.5 * (forest.point(corner) + forest.centroid(patch)),
+              enclosure.mesh.facets[side / 2].tets[side % 2], normal_of(forest, patch), true},
+             forest.area(patch) / 3.0});
+    return points;
+}
+
+std::vector<std::pair<Receiver, double>> quadrature(const Enclosure&, const Forest& forest,
+                                                    ZoneId zone) {
+    constexpr double towards_corner = 0.4472135954999579;  // 1/√5
+    std::vector<std::pair<Receiver, double>> points;
+    for (const VertexId corner : forest[zone].corners) {
+        const Point centre = forest.centroid(zone);
+        points.push_back(
+            {{centre + towards_corner * (forest.point(corner) - centre), forest.base_tet(zone)},
+             forest.volume(zone) / 4.0});
+    }
+    return points;
+}
+
+}  // namespace
+
+std::vector<double> incident_lit(const Enclosure& enclosure, const Forest& forest,
+                                 const Elements& e, const LitPatches& lit) {
+    std::vector<double> incident(e.size() * e.bands, 0.0);
+    tbb::parallel_for(std::size_t(0), e.size(), [&](std::size_t i) {
+        const std::span<double> sum(incident.data() + i * e.bands, e.bands);
+        std::vector<double> here(e.bands);
+        double measure = 0.0;
+        for (const std::uint32_t member : e.members_of(i)) {
+            const auto points = e.is_patch(i) ? quadrature(enclosure, forest, PatchId(member))
+                                              : quadrature(enclosure, forest, ZoneId(member));
+            for (const auto& [receiver, size] : points) {
+                std::fill(here.begin(), here.end(), 0.0);
+                lit.gather(receiver, here);
+                measure += size;
+                for (std::size_t b = 0; b < e.bands; ++b) sum[b] += size * here[b];
+            }
+        }
+        for (double& value : sum) value /= measure;
+    });
+    return incident;
+}
+
+}  // namespace tyndall::radiosity

@@ -1,0 +1,54 @@
+// What leaves send out, as far as it is known at each step of the loop.
+#pragma once
+
+#include "radiosity/coarse_solution.h"
+#include "radiosity/refine.h"
+
+namespace tyndall::radiosity {
+
+// Joins the direct light of the leaves with the indirect light of coarser elements. Keeps
+// references to its arguments. Not thread-safe: samples are made on demand.
+class LeafLight {
+  public:
+    LeafLight(const Enclosure& enclosure, ElementMesh& mesh, DirectRefiner& direct,
+              Radiance radiance)
+        : enclosure_(enclosure), mesh_(mesh), direct_(direct), radiance_(radiance) {}
+
+    // H^A of a leaf, linear between its corners; and so with the leaf's mean kept [W/m^2/sr].
+    template <class Node>
+    Affine direct(Node leaf, std::size_t band);
+    template <class Node>
+    Affine direct_with_mean(Node leaf, std::size_t band) {
+        return with_mean(direct(leaf, band), mesh_.forest().centroid(leaf),
+                         direct_.mean(leaf, band));
+    }
+
+    // What patches reflect of direct light.
+    LitPatches lit_patches();
+
+    // r of the leaves as the coarse solution knows it: their own direct light with its mean kept,
+    // the coarse element's indirect light made linear between elements. With `lit`, without what
+    // patches reflect of direct light: it is looked at apart. Coarsened, ready for gathers.
+    Fields sources(const CoarseSolution& coarse, const LitPatches* lit = nullptr);
+
+    // Gives the zones of such sources what has been gathered there since.
+    void update_zones(IndirectRefiner& indirect, Fields& sources);
+
+    // The element of the coarse solution that a leaf lies in.
+    template <class Node>
+    std::uint32_t element_above(Node leaf, const std::vector<std::uint32_t>& of_node) const {
+        while (!(leaf.value < of_node.size() && of_node[leaf.value] != none))
+            leaf = mesh_.forest()[leaf].parent;
+        return of_node[leaf.value];
+    }
+
+  private:
+    std::vector<Affine> linear_indirect(const CoarseSolution& coarse);
+
+    const Enclosure& enclosure_;
+    ElementMesh& mesh_;
+    DirectRefiner& direct_;
+    Radiance radiance_;
+};
+
+}  // namespace tyndall::radiosity

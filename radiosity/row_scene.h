@@ -1,0 +1,211 @@
+// What rows are walked through: the trees of zones and patches in single precision and packed, with
+// the column of every node.
+#pragma once
+
+#include <cmath>
+
+#include "radiosity/exchange.h"
+
+namespace tyndall::radiosity {
+
+// A ray crosses many zones but ends on one patch: coarser patches make rows no shorter, and their
+// means are what a solution with level of detail would be wrong by. They stand for their leaves
+// from farther on, by this factor.
+inline constexpr float patch_detail = 0.125f;
+
+// Siblings share a cache line: a walk is bound by memory. Lengths are relative to the middle of
+// the hull, so that single precision is that of the scene, wherever it lies.
+class RowScene {
+  public:
+    // With levels a zone of size h may stand for the elements below it where h ≤ detail · t, at
+    // distance t along the ray, and a patch where h ≤ patch_detail · detail · t. Without: the
+    // elements alone.
+    // Cost: O(nodes). Later bisections of the forest are not seen.
+    RowScene(const Discretization& discretization, const RowLevels* levels, std::size_t band,
+             double detail);
+
+    const mesh::BaseMesh& mesh() const { return mesh_; }
+    std::size_t memory() const;
+
+  private:
+    template <class Deposit>
+    friend class RowWalk;
+    struct alignas(32) Node {
+        float plane[4];        // normal and offset of an inner node's split
+        std::uint32_t child;   // first child; none: an element
+        std::uint32_t column;  // of exchange areas
+        float size;            // longest edge [m]
+    };
+    struct alignas(64) Pair {
+        Node nodes[2];
+    };
+    struct Tree {
+        std::vector<Pair> pairs;  // roots first, by their numbers
+        const Node& operator[](std::uint32_t k) const { return pairs[k >> 1].nodes[k & 1]; }
+        Node& operator[](std::uint32_t k) { return pairs[k >> 1].nodes[k & 1]; }
+    };
+    struct Cluster {
+        std::uint32_t column;
+        std::uint32_t parent;  // none: a root
+        float size;            // [m]
+    };
+    struct Above {
+        std::vector<std::uint32_t> of_root;  // smallest cluster; none
+        std::vector<Cluster> clusters;
+    };
+
+    template <class NodeId>
+    Tree pack(const std::vector<std::uint32_t>& tags, const std::vector<std::uint32_t>& elements,
+              const std::vector<std::uint32_t>* columns) const;
+    static Above pack(const mesh::ClusterTree& tree, const std::vector<std::uint32_t>& columns);
+
+    const mesh::BaseMesh& mesh_;
+    const Forest& forest_;
+    Point centre_;
+    float detail_;
+    std::uint32_t outside_;
+    Tree zones_, patches_;
+    Above zones_above_, patches_above_;
+    std::vector<float> extinction_;  // of base tets, 0 where there is no element [1/m]
+};
+
+// Follows rays. deposit(column, share): of what a ray carries, 1 in all, `share` ends in the
+// column.
+template <class Deposit>
+class RowWalk {
+  public:
+    RowWalk(const RowScene& scene, Deposit deposit) : s_(scene), deposit_(std::move(deposit)) {}
+
+    // Returns how the walk ended, for the count of lost rays.
+    mesh::Arrival follow(const mesh::Ray& ray, mesh::WalkStart start) {
+        const Point from = ray.origin - s_.centre_;
+        for (int axis = 0; axis < 3; ++axis) {
+            origin_[axis] = static_cast<float>(from[axis]);
+            direction_[axis] = static_cast<float>(ray.direction[axis]);
+        }
+        transmittance_ = 1.0;
+        column_ = none;
+        depth_ = 0.0f;
+        const auto end =
+            mesh::walk(s_.mesh_, ray, start, [&](TetId tet, double t_in, double t_out) {
+                cross(tet.value, static_cast<float>(t_in), static_cast<float>(t_out));
+                return true;
+            });
+        flush();
+        const bool struck = end.arrival == mesh::Arrival::struck;
+        deposit_(
+            struck ? arrival(2 * end.facet.value + (end.side == Side::back),
+                             from + end.distance * ray.direction, static_cast<float>(end.distance))
+                   : s_.outside_,
+            transmittance_);
+        return end.arrival;
+    }
+
+  private:
+    static float dot(const float* a, const float* b) {
+        return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+    }
+
+    // The column of the largest cluster above a root that may stand for it; none.
+    static std::uint32_t cluster_for(const RowScene::Above& above, std::uint32_t root,
+                                     float reach) {
+        if (above.of_root.empty()) return none;
+        std::uint32_t cluster = above.of_root[root], column = none;
+        while (cluster != none && above.clusters[cluster].size <= reach) {
+            column = above.clusters[cluster].column;
+            cluster = above.clusters[cluster].parent;
+        }
+        return column;
+    }
+
+    // Crosses a base tet: down the tree as a BSP, no deeper than the distance asks for.
+    void cross(std::uint32_t tet, float t_in, float t_out) {
+        const float extinction = s_.extinction_[tet];
+        if (extinction == 0.0f) return;
+        const float detail = s_.detail_;
+        if (const auto column = cluster_for(s_.zones_above_, tet, detail * t_in); column != none)
+            return pass(column, extinction * (t_out - t_in));
+        struct Pending {
+            std::uint32_t zone;
+            float t_out;
+        };
+        Pending stack[128];
+        int depth = 0;
+        std::uint32_t zone = tet;
+        for (;;) {
+            const RowScene::Node& node = s_.zones_[zone];
+            if (node.child == none || node.size <= detail * t_in || depth == 128) {
+                pass(node.column, extinction * (t_out - t_in));
+                if (depth == 0) return;
+                t_in = t_out;
+                zone = stack[--depth].zone;
+                t_out = stack[depth].t_out;
+                continue;
+            }
+            const float slope = dot(node.plane, direction_);
+            const float start = dot(node.plane, origin_) + node.plane[3];
+            const float at_in = start + t_in * slope, at_out = start + t_out * slope;
+            if (at_in <= 0.0f && at_out <= 0.0f) {
+                zone = node.child;
+            } else if (at_in >= 0.0f && at_out >= 0.0f) {
+                zone = node.child + 1;
+            } else {
+                const float t = std::clamp(-start / slope, t_in, t_out);
+                stack[depth++] = {at_in < 0.0f ? node.child + 1 : node.child, t_out};
+                zone = at_in < 0.0f ? node.child : node.child + 1;
+                t_out = t;
+            }
+        }
+    }
+
+    // Segments of one node on end are one deposit.
+    void pass(std::uint32_t column, float depth) {
+        if (column != column_) {
+            flush();
+            column_ = column;
+        }
+        depth_ += depth;
+    }
+
+    void flush() {
+        if (depth_ > 0.0f) {
+            // −expm1: the difference of two exponentials loses digits when thin.
+            const double share = transmittance_ * opacity(depth_);
+            deposit_(column_, share);
+            transmittance_ -= share;
+        }
+        depth_ = 0.0f;
+    }
+
+    static double opacity(double depth) {
+        if (depth > 0.03) return -std::expm1(-depth);
+        // The series' next term is below 1e-12 of the first.
+        return depth *
+               (1.0 -
+                depth / 2 *
+                    (1.0 - depth / 3 * (1.0 - depth / 4 * (1.0 - depth / 5 * (1.0 - depth / 6)))));
+    }
+
+    std::uint32_t arrival(std::uint32_t facet_side, Point x, float distance) const {
+        const float reach = patch_detail * s_.detail_ * distance;
+        if (const auto column = cluster_for(s_.patches_above_, facet_side, reach); column != none)
+            return column;
+        const float at[3]{static_cast<float>(x.x), static_cast<float>(x.y),
+                          static_cast<float>(x.z)};
+        std::uint32_t patch = facet_side;
+        for (;;) {
+            const RowScene::Node& node = s_.patches_[patch];
+            if (node.child == none || node.size <= reach) return node.column;
+            patch = node.child + (dot(node.plane, at) + node.plane[3] > 0.0f ? 1u : 0u);
+        }
+    }
+
+    const RowScene& s_;
+    Deposit deposit_;
+    float origin_[3]{}, direction_[3]{};
+    double transmittance_ = 1.0;
+    std::uint32_t column_ = none;
+    float depth_ = 0.0f;  // optical, in column_ so far
+};
+
+}  // namespace tyndall::radiosity

@@ -1,0 +1,81 @@
+#include "radiosity/solve_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "radiosity/balance.h"
+
+namespace tyndall::radiosity {
+namespace {
+
+// Constant J in an optically thick zone of the coarse solution overstates what passes through it: 5
+// % of the flux at 0.5 (docs/limits.md).
+constexpr double thin_enough = 0.5;
+
+void warn_of_thick_zones(const Enclosure& enclosure, const CoarseSolution& coarse, Report& report) {
+    const Elements& e = coarse.elements();
+    double thickest = 0.0;
+    std::uint32_t medium = 0;
+    for (std::size_t i = e.patches.size(); i < e.size(); ++i) {
+        const auto m = medium_of(enclosure, coarse.forest(), e.zone(i));
+        double volume = 0.0;
+        for (const auto member : e.members_of(i)) volume += coarse.forest().volume(ZoneId(member));
+        const double size = std::cbrt(volume);
+        for (const double extinction : enclosure.media[m].extinction)
+            if (extinction * size > thickest) {
+                thickest = extinction * size;
+                medium = m;
+            }
+    }
+    if (thickest > thin_enough)
+        report.warnings.push_back(fmt::format(
+            "zones of medium \"{}\" in the coarse solution are up to {:.2g} optical depths thick: "
+            "fluxes through them are overstated. Set solve.element_size to {:.2g} m or less.",
+            enclosure.media[medium].name, thickest,
+            thin_enough / *std::max_element(enclosure.media[medium].extinction.begin(),
+                                            enclosure.media[medium].extinction.end())));
+}
+
+}  // namespace
+
+Report solve_report(const Enclosure& enclosure, const CoarseSolution& coarse,
+                    const std::vector<double>& incident_direct, const DirectLight& light,
+                    const SolveOptions& options, const Ending& ending) {
+    Report report;
+    report.solved_elements = coarse.elements().size();
+    report.solver = coarse.report();
+    report.stopped = ending.stopped;
+    report.lost_rays = coarse.lost_rays();
+    report.estimated_error = ending.estimated_error;
+    for (std::size_t b = 0; b < enclosure.bands; ++b) {
+        report.closure_error =
+            std::max(report.closure_error, closure_error(coarse.areas(b), coarse.elements(), b));
+        report.reciprocity_error = std::max(report.reciprocity_error,
+                                            reciprocity_error(coarse.areas(b), coarse.elements()));
+    }
+    const Balance power = balance(enclosure, coarse, incident_direct, light, 16384, options.seed);
+    report.net_power = power.net_power;
+    report.energy_balance = power.energy_balance;
+    report.direct_power_check = power.direct_power_check;
+    report.warnings = enclosure.warnings;
+    warn_of_thick_zones(enclosure, coarse, report);
+    if (ending.out_of_time)
+        report.warnings.push_back(
+            fmt::format("refinement ended at max_time = {} s; the estimated error is {:.3g}.",
+                        options.max_time, report.estimated_error));
+    if (ending.limited && report.estimated_error > options.error)
+        report.warnings.push_back(
+            fmt::format("refinement ended at a limit (max_elements = {}, max_memory = {} bytes) "
+                        "before the error "
+                        "goal of {}.",
+                        options.max_elements, options.max_memory, options.error));
+    if (!report.solver.converged)
+        report.warnings.push_back(
+            fmt::format("the solver did not converge: residual {:.2e} after {} iterations.",
+                        report.solver.residual, report.solver.iterations));
+    return report;
+}
+
+}  // namespace tyndall::radiosity

@@ -1,0 +1,14 @@
+// The elements that the first coarse solution of a solve has.
+#pragma once
+
+#include "radiosity/elements.h"
+#include "radiosity/options.h"
+
+namespace tyndall::radiosity {
+
+// Start::single_zone: one zone a part of a medium that light can cross, one patch a side of an
+//   input polygon; everything finer is then recomputed from that first solution.
+// Every other start: the forest's leaves.
+Elements start_elements(const Enclosure& enclosure, const Forest& forest, Start start);
+
+}  // namespace tyndall::radiosity
