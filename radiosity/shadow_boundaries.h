@@ -11,8 +11,7 @@
 //   hide of a sheet is not cut off, but where they seal it off: whether light changes across it is
 //   for the caller to find out.
 // Cost: O(edges × lights + tets that sheets touch).
-// Source: Nishita & Nakamae (1985); Campbell & Fussell (1990); Teller (1992), Computing the
-//   antipenumbra of an area light source.
+// Source: Nishita & Nakamae (1985); Campbell & Fussell (1990); Teller (1992).
 #pragma once
 
 #include <array>

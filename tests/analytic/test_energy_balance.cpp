@@ -25,8 +25,8 @@ radiosity::Report report_of(const std::string& scene, std::size_t rays, std::uin
 }  // namespace
 
 TEST_CASE("Energy balances in every example scene at the default rays", "[balance]") {
-    for (const std::string scene :
-         {"window_shafts.toml", "cornell_fog.toml", "sun_louvres.toml", "columns_obj.toml"}) {
+    for (const std::string scene : {"window_shafts.toml", "cornell_fog.toml", "sun_louvres.toml",
+                                    "columns_obj.toml", "sharp_sun.toml"}) {
         INFO(scene);
         const auto report = report_of(scene, radiosity::SolveOptions().rays, 1);
         CHECK(report.closure_error <= 1e-6);
