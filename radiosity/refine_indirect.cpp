@@ -7,22 +7,25 @@
 namespace tyndall::radiosity {
 namespace {
 
-// A departure within this many standard deviations of the gather's noise is taken for noise. On
-// patches, which are seen as they are, one is enough: an element too many costs less than a facet
-// that shows.
-template <class Node>
-constexpr double deviations = std::is_same_v<Node, PatchId> ? 1.0 : 2.0;
+// A departure within this many standard deviations of the gather's noise is taken for noise: an
+// element too many costs less than light that bulges and is not followed.
+constexpr double deviations = 1.0;
 // A settled element keeps the quadratic through its samples, of which its leaves hold linear parts:
 // about a quarter of the departure from linear remains where the function is smooth, about half at
 // the edges of light on surfaces.
 template <class Node>
 constexpr double remaining = std::is_same_v<Node, PatchId> ? 0.5 : 0.25;
 
+// Where a patch's departure from linear has more than this part of the share it may have, its
+// leaves are bisected to show the quadratic: they need no gathers, and light that bulges would else
+// be lost on every patch with the same sign.
+constexpr double shown_share = 0.02;
+
 // A departure joins three samples of equal variance with weights 1, −1/2, −1/2.
 const double departure_noise = std::sqrt(1.5);
 
 // Multiple scattering is smooth: the descent starts this many levels above the solved zones.
-constexpr int levels_above = 3;
+constexpr int levels_above = 1;
 
 std::vector<ZoneId> ancestors(const Forest& forest, std::vector<ZoneId> nodes) {
     for (ZoneId& node : nodes)
@@ -68,8 +71,8 @@ std::pair<double, std::array<int, 2>> IndirectRefiner::measure(Node node) {
     std::vector<double> noise(enclosure_.bands, 0.0);
     for (std::size_t b = 0; b < noise.size(); ++b) {
         for (const SampleId id : all) noise[b] += samples.spread(id, b) * samples.spread(id, b);
-        noise[b] = deviations<Node> * departure_noise *
-                   std::sqrt(noise[b] / static_cast<double>(all.size()));
+        noise[b] =
+            deviations * departure_noise * std::sqrt(noise[b] / static_cast<double>(all.size()));
     }
 
     double worst = 0.0, square = 0.0;
@@ -144,7 +147,7 @@ RefineResult IndirectRefiner::refine(std::vector<Node> frontier, IndirectSources
             settled.flags[node.value] = true;
             settled.errors[node.value] = static_cast<float>(error);
             result.squared_error += share;
-            if (descend && share > remaining<Node> * remaining<Node> * threshold)
+            if (descend && share > shown_share * remaining<Node> * remaining<Node> * threshold)
                 shown.push_back(node);
         }
         extend(forest, sources.fields);
