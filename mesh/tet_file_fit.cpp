@@ -110,9 +110,9 @@ FittedMesh fit_tetrahedra(const TetFile& given, const ConformingComplex& complex
     const FittedNodes nodes = fit_nodes(given, complex, finder, tolerance);
     const TetFile file = moved(given, nodes);
     const auto faces = faces_of(file, nodes.points);
-    const auto matched = match_surfaces(file, complex, polygons, finder, nodes, faces);
+    const FacetGroups groups = sheets_of(complex, polygons);
+    const auto matched = match_surfaces(file, complex, polygons, groups, finder, nodes, faces);
 
-    const FacetGroups groups(complex);
     Parts parts;
     parts.all.points = nodes.points;
     for (const FileTet& tet : file.tets) parts.all.tets.push_back(tet.corners);

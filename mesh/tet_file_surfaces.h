@@ -7,6 +7,7 @@
 
 #include "mesh/base_mesh.h"
 #include "mesh/conform.h"
+#include "mesh/facet_groups.h"
 #include "mesh/tet_file.h"
 
 namespace tyndall::mesh {
@@ -33,20 +34,10 @@ class FacetFinder {
     std::vector<std::vector<FacetId>> lists_;
 };
 
-// Facets on the same polygons, joined across edges that no other facet shares: a triangulation
-// inside a sheet is the conforming step's own choice and need not be followed, its outline must be.
-class FacetSheets {
-  public:
-    explicit FacetSheets(const ConformingComplex& complex);
-
-    std::size_t size() const { return members_.size(); }
-    std::uint32_t sheet(FacetId facet) const { return sheets_[facet.value]; }
-    const std::vector<FacetId>& members(std::size_t sheet) const { return members_[sheet]; }
-
-  private:
-    std::vector<std::uint32_t> sheets_;
-    std::vector<std::vector<FacetId>> members_;
-};
+// Sheets: coplanar facets on the same surfaces, joined across edges that no other facet shares. The
+// polygons and triangles that make up a sheet need not be followed, its outline must be. Polygons
+// are of one surface if they have the same name (and opacity), or are the same polygon.
+FacetGroups sheets_of(const ConformingComplex& complex, std::span<const Polygon> polygons);
 
 // A face between two tets, or of one: its corners counter-clockwise seen from inside `tet`.
 struct TetFace {
@@ -84,7 +75,8 @@ struct Matched {
 
 // Throws InputError: a sheet that the faces cover in part, or that runs through tets unfollowed.
 Matched match_surfaces(const TetFile& file, const ConformingComplex& complex,
-                       std::span<const Polygon> polygons, const FacetFinder& finder,
-                       const FittedNodes& nodes, std::span<const TetFace> faces);
+                       std::span<const Polygon> polygons, const FacetGroups& sheets,
+                       const FacetFinder& finder, const FittedNodes& nodes,
+                       std::span<const TetFace> faces);
 
 }  // namespace tyndall::mesh

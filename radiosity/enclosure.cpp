@@ -10,7 +10,7 @@
 #include <numeric>
 
 #include "mesh/input_error.h"
-#include "mesh/tet_file_fit.h"
+#include "radiosity/own_tetrahedra.h"
 
 namespace tyndall::radiosity {
 namespace {
@@ -365,20 +365,6 @@ void Binder::refuse_unbounded() {
     }
 }
 
-// What the file's tets leave to others of the regions that light can be in.
-void note_filled(const mesh::FittedMesh& fitted, const std::string& file, Enclosure& enclosure) {
-    double volume = 0.0;
-    for (const auto& tet : fitted.filled)
-        if (const TetId at = mesh::locate(enclosure.mesh, tet.centroid); !enclosure.solid(at))
-            volume += tet.volume;
-    enclosure.warnings.insert(enclosure.warnings.end(), fitted.notes.begin(), fitted.notes.end());
-    if (volume > 0.0)
-        enclosure.warnings.push_back(fmt::format(
-            "{} leaves {:.4g} m3 in which light can be without tetrahedra, up to the scene's hull: "
-            "TetGen filled them.",
-            file, volume));
-}
-
 }  // namespace
 
 Enclosure make_enclosure(const Scene& scene, const EnclosureOptions& options) {
@@ -388,20 +374,19 @@ Enclosure make_enclosure(const Scene& scene, const EnclosureOptions& options) {
     const auto complex = mesh::conform(polygons.list, options.conform);
     Enclosure enclosure;
     enclosure.bands = scene.bands;
-    mesh::FittedMesh fitted;
-    if (options.tetrahedra.empty()) {
-        enclosure.mesh = mesh::tetrahedralize(complex, polygons.list, options.tetrahedralize);
-    } else {
-        const auto file = mesh::read_tet_file(options.tetrahedra);
-        fitted = mesh::fit_tetrahedra(file, complex, polygons.list, options.tetrahedralize);
-        enclosure.mesh = std::move(fitted.mesh);
-    }
+    const bool own = !options.tetrahedra.empty();
+    mesh::FittedMesh fitted =
+        own ? mesh::fit_tetrahedra(mesh::read_tet_file(options.tetrahedra), complex, polygons.list,
+                                   options.tetrahedralize)
+            : mesh::FittedMesh{
+                  mesh::tetrahedralize(complex, polygons.list, options.tetrahedralize), {}, {}};
+    enclosure.mesh = std::move(fitted.mesh);
     mesh::find_regions(enclosure.mesh);
     enclosure.lights = scene.lights;
     enclosure.environment =
         scene.environment.empty() ? Spectrum(scene.bands, 0.0) : scene.environment;
     Binder(scene, polygons, complex, enclosure).bind();
-    note_filled(fitted, options.tetrahedra.string(), enclosure);
+    if (own) note_own_tetrahedra(fitted, options.tetrahedra.string(), enclosure);
     for (const Medium& medium : scene.media)
         if (medium.asymmetry != 0.0)
             enclosure.warnings.push_back(fmt::format(
