@@ -18,6 +18,8 @@ namespace {
 
 // Areas agree when they differ by less than this times themselves [-].
 constexpr double area_tolerance = 1e-6;
+// Barycentric coordinates nearer to 0 than this are on a face [-].
+constexpr double rounding = 1e-6;
 
 double area_of(const Point& a, const Point& b, const Point& c) {
     return 0.5 * glm::length(glm::cross(b - a, c - a));
@@ -125,11 +127,13 @@ class Matcher {
                rest * complex_.points[c[2].value];
     }
 
-    // Keeps the sheet followed worst: one that is not followed spoils those its outline is on.
-    void note(FacetId facet, double covered, double wanted) {
+    // Keeps the sheet followed worst, first of all one that runs through tets: one that is not
+    // followed spoils those its outline is on.
+    void note(FacetId facet, double covered, double wanted, bool through = false) {
         ++wrong_;
-        if (worst_.facet.valid() && covered / wanted >= worst_.covered / worst_.wanted) return;
-        worst_ = {facet, covered, wanted};
+        const double rank = covered / wanted - (through ? 1.0 : 0.0);
+        if (worst_.facet.valid() && rank >= worst_.rank) return;
+        worst_ = {facet, covered, wanted, rank};
     }
 
     void check(std::size_t sheet) {
@@ -146,15 +150,22 @@ class Matcher {
         }
         if (std::abs(covered - wanted) <= area_tolerance * wanted) return;
         if (covered > area_tolerance * wanted) return note(where, covered, wanted);
-        for (const FacetId facet : sheets_.members(sheet)) {
+        double deepest = -1.0;
+        for (const FacetId facet : sheets_.members(sheet))
             for (const double t : {1.0 / 3.0, 0.8, 0.05})
-                if (inside_tets(facet_point(facet, t))) return note(facet, covered, wanted);
-            result_.outside.push_back(facet);
-        }
+                if (const double depth = depth_in_tets(facet_point(facet, t)); depth > deepest) {
+                    deepest = depth;
+                    where = facet;
+                }
+        if (deepest >= -rounding) return note(where, covered, wanted, deepest > rounding);
+        const auto& members = sheets_.members(sheet);
+        result_.outside.insert(result_.outside.end(), members.begin(), members.end());
     }
 
-    // Whether x is in a tet of the file, or on its surface within rounding.
-    bool inside_tets(Point x) const {
+    // The least barycentric coordinate of x in the tet of the file it is in deepest: 0 on a face,
+    // below −rounding outside all of them.
+    double depth_in_tets(Point x) const {
+        double deepest = -1.0;
         for (const FileTet& tet : file_.tets) {
             std::array<Point, 4> p;
             for (int k = 0; k < 4; ++k) p[k] = nodes_.points[tet.corners[k]] - x;
@@ -167,9 +178,9 @@ class Matcher {
             };
             const double v[4]{six(1, 2, 3), six(0, 3, 2), six(0, 1, 3), six(0, 2, 1)};
             const double all = v[0] + v[1] + v[2] + v[3];
-            if (*std::min_element(v, v + 4) >= -1e-6 * all) return true;
+            deepest = std::max(deepest, *std::min_element(v, v + 4) / all);
         }
-        return false;
+        return deepest;
     }
 
     [[noreturn]] void refuse() const {
@@ -186,6 +197,7 @@ class Matcher {
     struct Wrong {
         FacetId facet;
         double covered, wanted;  // [m^2]
+        double rank;             // the lowest is the worst
     };
 
     const TetFile& file_;
