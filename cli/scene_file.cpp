@@ -113,6 +113,29 @@ std::string view_camera(const TableReader& root, const std::optional<std::string
     return *given;
 }
 
+// solve.mesh beside the scene file, where solve.start asks for it.
+std::filesystem::path own_tetrahedra(const TableReader& root, const Settings& settings,
+                                     const std::filesystem::path& folder,
+                                     std::vector<std::string>& notes) {
+    if (settings.solve.start != radiosity::Start::mesh) {
+        if (!settings.mesh.empty())
+            notes.push_back("solve.mesh is not used, as solve.start is not \"mesh\"");
+        return {};
+    }
+    const TableReader solve = root.table("solve", solve_keys(), "[solve]");
+    if (settings.mesh.empty())
+        solve.fail(solve.has("mesh") ? "mesh" : "start",
+                   "start of [solve] is \"mesh\", but no file is given. Give mesh = \"file.msh\", "
+                   "or take start = \"base\".");
+    const auto path = folder / settings.mesh;
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path, ignored))
+        solve.fail("mesh", fmt::format("mesh of [solve]: there is no file '{}'. Correct the path; "
+                                       "it is taken from the scene file's folder.",
+                                       path.string()));
+    return path;
+}
+
 bool emits_light(const radiosity::Scene& scene) {
     const auto some = [](const radiosity::Spectrum& values) {
         return std::any_of(values.begin(), values.end(), [](double v) { return v > 0.0; });
@@ -150,6 +173,7 @@ SceneFile read_scene_file(const std::filesystem::path& path,
 
     const Settings settings = read_settings(root);
     file.solve = settings.solve;
+    file.tetrahedra = own_tetrahedra(root, settings, path.parent_path(), file.notes);
     file.render = settings.render;
     file.tone_map = settings.tone_map;
     file.view_camera = view_camera(root, settings.camera, cameras);

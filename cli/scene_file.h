@@ -16,6 +16,7 @@ struct SceneFile {
     radiosity::Scene scene;
     std::vector<render::Camera> cameras;
     radiosity::SolveOptions solve;
+    std::filesystem::path tetrahedra;  // solve.mesh where solve.start is "mesh"; empty otherwise
     std::string view_camera;  // whose picture matters: solve.camera, else the first; "" for none
     render::RenderOptions render;
     render::ToneMapOptions tone_map;

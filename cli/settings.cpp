@@ -13,7 +13,7 @@ constexpr std::array<std::string_view, 1> exchange_names{"walked"};
 constexpr std::array<std::string_view, 1> solver_names{"gmres"};
 constexpr std::array<std::string_view, 5> refinement_names{"none", "uniform", "adaptive", "view",
                                                            "aligned"};
-constexpr std::array<std::string_view, 3> start_names{"single-zone", "base", "uniform"};
+constexpr std::array<std::string_view, 4> start_names{"single-zone", "base", "uniform", "mesh"};
 constexpr std::array<std::string_view, 2> radiance_names{"constant", "linear"};
 constexpr std::array<std::string_view, 2> direct_light_names{"closed_form", "rows"};
 constexpr std::array<std::string_view, 1> render_method_names{"line_of_sight"};
@@ -48,8 +48,10 @@ constexpr Setting solve_settings[] = {
      [](T t, K k, Settings& s) { s.solve.error = t.number(k, {0.0, 1.0, true, true}); }},
     {{"camera", "name of a camera", "the first camera", "the camera whose picture matters; \"\" for a solution good everywhere"},
      [](T t, K k, Settings& s) { s.camera = t.text(k); }},
-    {{"start", "\"single-zone\", \"base\" or \"uniform\"", "\"uniform\"", "the mesh to begin with: one zone a medium and the input polygons, the base tets and facets, or these bisected down to element_size (0: to about 4000 zones and 1500 patches)"},
+    {{"start", "\"single-zone\", \"base\", \"uniform\" or \"mesh\"", "\"uniform\"", "the mesh to begin with: one zone a medium and the input polygons; the base tets and facets; these bisected down to element_size (0: to about 4000 zones and 1500 patches); your own tetrahedra, those of the file mesh"},
      [](T t, K k, Settings& s) { s.solve.start = static_cast<radiosity::Start>(t.choice(k, start_names)); }},
+    {{"mesh", "path of a file", "", "Gmsh's .msh, or TetGen's .ele beside its .node, relative to the scene file: the base mesh where start is \"mesh\""},
+     [](T t, K k, Settings& s) { s.mesh = t.text(k); }},
     {{"refinement", "\"none\", \"uniform\", \"adaptive\", \"view\" or \"aligned\"", "\"aligned\"", "the initial mesh; all down to element_size; where it is needed; where the picture needs it; along shadow boundaries too"},
      [](T t, K k, Settings& s) { s.solve.refinement = static_cast<radiosity::Refinement>(t.choice(k, refinement_names)); }},
     {{"promotions", "whole number", "0", "times the refined mesh, at a looser goal, is solved anew before the last refinement"},

@@ -12,6 +12,7 @@ namespace tyndall::cli {
 struct Settings {
     radiosity::SolveOptions solve;
     std::optional<std::string> camera;  // solve.camera as given
+    std::string mesh;                   // solve.mesh as given; empty: none
     render::RenderOptions render;
     render::ToneMapOptions tone_map;
 };

@@ -19,6 +19,16 @@ FacetGroups::FacetGroups(const ConformingComplex& complex) : complex_(complex) {
     }
 }
 
+FacetGroups::FacetGroups(const ConformingComplex& complex, std::vector<std::size_t> groups)
+    : complex_(complex), groups_(std::move(groups)) {
+    for (std::size_t f = 0; f < groups_.size(); ++f) {
+        if (groups_[f] >= members_.size()) {
+            members_.resize(groups_[f] + 1);
+        }
+        members_[groups_[f]].push_back(FacetId(f));
+    }
+}
+
 glm::dvec3 FacetGroups::area_vector(FacetId facet) const {
     const auto& corners = complex_.facets[facet.value].corners;
     const auto& a = complex_.points[corners[0].value];

@@ -12,6 +12,8 @@ namespace tyndall::mesh {
 class FacetGroups {
   public:
     explicit FacetGroups(const ConformingComplex& complex);
+    // Groups given: of each facet, from 0 without gaps.
+    FacetGroups(const ConformingComplex& complex, std::vector<std::size_t> groups);
 
     std::size_t size() const { return members_.size(); }
     std::size_t group(FacetId facet) const { return groups_[facet.value]; }

@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "mesh/input_error.h"
+#include "radiosity/own_tetrahedra.h"
 
 namespace tyndall::radiosity {
 namespace {
@@ -373,12 +374,19 @@ Enclosure make_enclosure(const Scene& scene, const EnclosureOptions& options) {
     const auto complex = mesh::conform(polygons.list, options.conform);
     Enclosure enclosure;
     enclosure.bands = scene.bands;
-    enclosure.mesh = mesh::tetrahedralize(complex, polygons.list, options.tetrahedralize);
+    const bool own = !options.tetrahedra.empty();
+    mesh::FittedMesh fitted =
+        own ? mesh::fit_tetrahedra(mesh::read_tet_file(options.tetrahedra), complex, polygons.list,
+                                   options.tetrahedralize)
+            : mesh::FittedMesh{
+                  mesh::tetrahedralize(complex, polygons.list, options.tetrahedralize), {}, {}};
+    enclosure.mesh = std::move(fitted.mesh);
     mesh::find_regions(enclosure.mesh);
     enclosure.lights = scene.lights;
     enclosure.environment =
         scene.environment.empty() ? Spectrum(scene.bands, 0.0) : scene.environment;
     Binder(scene, polygons, complex, enclosure).bind();
+    if (own) note_own_tetrahedra(fitted, options.tetrahedra.string(), enclosure);
     for (const Medium& medium : scene.media)
         if (medium.asymmetry != 0.0)
             enclosure.warnings.push_back(fmt::format(

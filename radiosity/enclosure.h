@@ -1,6 +1,7 @@
 // The scene as the solver sees it: the base mesh, and what every facet side and region is made of.
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
@@ -70,14 +71,17 @@ struct Enclosure {
 };
 
 struct EnclosureOptions {
-    mesh::ConformOptions conform;
-    mesh::TetrahedralizeOptions tetrahedralize;
+    mesh::ConformOptions conform{};
+    mesh::TetrahedralizeOptions tetrahedralize{};
+    // The user's own tetrahedra (mesh/tet_file.h) in place of TetGen's; empty: none.
+    std::filesystem::path tetrahedra{};
 };
 
 // Purpose: conform the surfaces, tetrahedralize, tell solid from empty from filled, bind optics.
 // Errors: mesh::InputError with file:line:column (Scene's `where`) and name: what cannot be meshed;
 //   a medium point in no region, on a wall or outside; two media that claim one region; a power on
-//   a surface without area; a closed region with a source, no absorption and no opening.
+//   a surface without area; a closed region with a source, no absorption and no opening; a file of
+//   tetrahedra that cannot be read or does not follow the surfaces.
 // Cost: dominated by CGAL and TetGen; about 1 s for a thousand facets.
 Enclosure make_enclosure(const Scene& scene, const EnclosureOptions& options = {});
 

@@ -20,12 +20,13 @@ render::PictureError against(const render::Image& image, const std::string& laye
                            expected.layers[0]);
 }
 
-// The reference's own noise is 0.3 % in 4×4 and 0.1 % in 16×16 blocks; what is left are our errors,
-// to which the scene's goal of 2 % a pixel, mostly of either sign in a block, leaves this much.
-void check(const render::PictureError& error) {
+// The reference's own noise is 0.3 % in 4×4 and 0.1 % in 16×16 blocks; of its direct part, whose
+// mean is a third, 1 % and 0.3 %. What is left are our errors: 0.65 % and 0.45 % measured (0.5 %
+// with the worst of three seeds) for a goal of 1.4 % a pixel.
+void check(const render::PictureError& error, double block4, double block16) {
     CHECK(std::abs(error.bias) <= 0.005);
-    CHECK(error.block4 <= 0.03);
-    CHECK(error.block16 <= 0.015);
+    CHECK(error.block4 <= block4);
+    CHECK(error.block16 <= block16);
     CHECK(error.not_finite == 0);
     CHECK(error.negative == 0);
 }
@@ -40,8 +41,8 @@ TEST_CASE("Window shafts: the picture and its direct and single-scattered part",
         std::make_shared<const radiosity::Enclosure>(radiosity::make_enclosure(file.scene)),
         file.solve, camera.view());
     const auto image = render::line_of_sight(solution, camera, file.render);
-    check(against(image, "", "window_shafts.pfm"));
-    check(against(image, "direct_single", "window_shafts_direct_single.pfm"));
+    check(against(image, "", "window_shafts.pfm"), 0.01, 0.005);
+    check(against(image, "direct_single", "window_shafts_direct_single.pfm"), 0.015, 0.005);
     // Rows close by construction; the balance holds at the rate of the rays, 0.03 % here.
     CHECK(solution.report.closure_error <= 1e-6);
     CHECK(std::abs(solution.report.energy_balance) <= 0.005);
