@@ -36,11 +36,13 @@ std::shared_ptr<const radiosity::Enclosure> mesh_scene(const SceneFile& file,
     return std::make_shared<const radiosity::Enclosure>(std::move(enclosure));
 }
 
-radiosity::Solution solve_scene(const SceneFile& file, ProgressLine& progress) {
+radiosity::Solution solve_scene(const SceneFile& file, ProgressLine& progress,
+                                const radiosity::Passes& passes) {
     const auto enclosure = mesh_scene(file, progress);
     std::optional<radiosity::View> view;
     if (!file.view_camera.empty()) view = find_camera(file.cameras, file.view_camera).view();
-    auto solution = radiosity::solve_adaptively(enclosure, file.solve, view, progress.callback());
+    auto solution =
+        radiosity::solve_adaptively(enclosure, file.solve, view, progress.callback(), passes);
     if (progress.stopped())
         solution.report.warnings.push_back("stopped on request before the error goal was reached.");
     return solution;

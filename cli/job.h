@@ -8,7 +8,7 @@
 
 #include "cli/progress.h"
 #include "cli/scene_file.h"
-#include "radiosity/solution.h"
+#include "radiosity/adaptive.h"
 #include "render/image.h"
 
 namespace tyndall::cli {
@@ -24,7 +24,8 @@ std::shared_ptr<const radiosity::Enclosure> mesh_scene(const SceneFile& file,
                                                        ProgressLine& progress);
 
 // Meshes and solves, for the view that the scene names.
-radiosity::Solution solve_scene(const SceneFile& file, ProgressLine& progress);
+radiosity::Solution solve_scene(const SceneFile& file, ProgressLine& progress,
+                                const radiosity::Passes& passes = {});
 
 // The camera of that name, "" the first. Throws mesh::InputError that lists those there are.
 const render::Camera& find_camera(const std::vector<render::Camera>& cameras,

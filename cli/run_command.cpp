@@ -3,6 +3,7 @@
 
 #include "cli/commands.h"
 #include "cli/job.h"
+#include "cli/passes.h"
 #include "cli/run_report.h"
 #include "mesh/file_bytes.h"
 #include "radiosity/resources.h"
@@ -16,6 +17,7 @@ namespace fs = std::filesystem;
 
 struct RunOptions {
     std::string scene, out;
+    PassChoice passes{};
 };
 
 enum class Picture { wanted, not_wanted };
@@ -44,7 +46,7 @@ int run(const RunOptions& options, const CommonFlags& flags, Picture picture) {
     const fs::path folder(options.out);
     prepare_folder(folder);
     ProgressLine progress(flags);
-    auto solution = solve_scene(file, progress);
+    auto solution = solve_scene(file, progress, passes_of(file, folder, options.passes));
     const auto solution_file = folder / "solution.vtkhdf";
     radiosity::write_solution(solution_file, solution, attachments_json(file));
     facts.written.push_back(solution_file);
@@ -77,6 +79,12 @@ void add(Shell& shell, const char* name, const char* purpose, const char* exampl
     add_set_flag(command, shell.flags());
     command.add_option("SCENE", options->scene, "Scene file")->required();
     command.add_option("-o,--output", options->out, "Folder for the results")->required();
+    auto* resume = command.add_flag("--resume", options->passes.resume,
+                                    "Go on from the last finished pass in the folder");
+    command
+        .add_option("--replay", options->passes.replay,
+                    "Take the mesh of this pass (OUT/passes/NN.vtkhdf) or solution as it is")
+        ->excludes(resume);
 }
 
 }  // namespace

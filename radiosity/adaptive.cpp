@@ -38,9 +38,10 @@ std::optional<ShadowBoundaries> shadow_boundaries(const Enclosure& enclosure,
 class Loop {
   public:
     Loop(std::shared_ptr<const Enclosure> enclosure, const SolveOptions& options,
-         const std::optional<View>& view, const ProgressCallback& progress)
+         const std::optional<View>& view, const ProgressCallback& progress, const Passes& passes)
         : enclosure_(std::move(enclosure)),
           options_(options),
+          kept_(passes),
           view_(view),
           progress_([this, progress, began = wall_seconds()](const Progress& now) {
               out_of_time_ = options_.max_time > 0.0 && wall_seconds() - began > options_.max_time;
@@ -59,7 +60,8 @@ class Loop {
         make_initial_mesh();
         Elements elements = start_elements(*enclosure_, mesh_.forest(), options_.start);
         for (std::size_t promotions = options_.promotions;; --promotions) {
-            Solution solution = turn(std::move(elements), std::pow(coarser_goal, promotions));
+            const double looser = std::pow(coarser_goal, promotions);
+            Solution solution = turn(std::move(elements), looser, promotions == 0);
             if (promotions == 0 || stopped_ || limited_) return solution;
             elements = elements_of_leaves(*enclosure_, mesh_.forest());
             mesh_.samples().forget_indirect();
@@ -68,7 +70,7 @@ class Loop {
 
   private:
     // Coarse solution of the elements, refinement to `looser` times the error, gather.
-    Solution turn(Elements elements, double looser) {
+    Solution turn(Elements elements, double looser, bool last) {
         const double goal = looser * looser * options_.error * options_.error;
         CoarseSolution coarse(*enclosure_, mesh_.forest(), std::move(elements), options_,
                               progress_);
@@ -80,16 +82,26 @@ class Loop {
         end_pass("coarse solution");
 
         const Importance importance(*enclosure_, mesh_.forest(), view_, scale_);
+        if (last) mesh_.replay(kept_.begin_with);
+        direct_.update();
         if (adaptive())
             note(direct_.refine(importance, direct_share * goal, limits(0.8), progress_));
         const LitPatches lit = leaf_light_.lit_patches();
         solve(coarse, &lit);
         end_pass("direct light");
+        if (kept_.save) {
+            const Fields indirect = leaf_light_.indirect(coarse);
+            kept_.save(collect(
+                coarse, [&](auto leaf, std::size_t b) { return indirect.at(leaf, b); },
+                [](auto) { return 0.0; }));
+        }
 
         IndirectRefiner indirect(*enclosure_, mesh_, coarse.elements(), options_.gather_rays,
                                  options_.seed);
         gather(coarse, lit, importance, adaptive() ? indirect_share * goal : 1e300, indirect);
-        Solution solution = collect(coarse, indirect);
+        Solution solution = collect(
+            coarse, [&](auto leaf, std::size_t b) { return indirect.field(leaf, b); },
+            [&](auto leaf) { return indirect.error(leaf); });
         end_pass("indirect light");
         solution.report =
             solve_report(*enclosure_, coarse, incident_direct_, light_, options_,
@@ -97,6 +109,7 @@ class Loop {
         solution.report.patches = mesh_.patch_leaf_count();
         solution.report.zones = mesh_.zone_leaf_count();
         solution.report.passes = passes_;
+        if (kept_.save) kept_.save(solution);
         return solution;
     }
 
@@ -116,7 +129,7 @@ class Loop {
         direct_.update();
     }
 
-    bool adaptive() const { return options_.refinement >= Refinement::adaptive; }
+    bool adaptive() const { return options_.refinement >= Refinement::adaptive && !kept_.frozen; }
     // `share` of the elements allowed: what direct light may not use is left for indirect light.
     RefineLimits limits(double share) const {
         const auto& base = enclosure_->mesh;
@@ -130,7 +143,8 @@ class Loop {
     void make_initial_mesh();
     void solve(CoarseSolution& coarse, const LitPatches* lit = nullptr);
     void rate(const CoarseSolution& coarse);
-    Solution collect(const CoarseSolution& coarse, IndirectRefiner& indirect);
+    template <class Field, class Error>
+    Solution collect(const CoarseSolution& coarse, Field&& indirect, Error&& error_of);
 
     void note(const RefineResult& result) {
         stopped_ = stopped_ || result.stopped;
@@ -152,6 +166,7 @@ class Loop {
 
     std::shared_ptr<const Enclosure> enclosure_;
     SolveOptions options_;
+    Passes kept_;
     std::optional<View> view_;
     ProgressCallback progress_;
     DirectLight light_;
@@ -240,7 +255,9 @@ void Loop::rate(const CoarseSolution& coarse) {
     scale_.picture = sum / (across * down);
 }
 
-Solution Loop::collect(const CoarseSolution& coarse, IndirectRefiner& indirect) {
+// The leaves' fields, given indirect light and its error.
+template <class Field, class Error>
+Solution Loop::collect(const CoarseSolution& coarse, Field&& indirect, Error&& error_of) {
     const Forest& forest = mesh_.forest();
     const std::size_t bands = enclosure_->bands;
     Solution solution;
@@ -258,9 +275,9 @@ Solution Loop::collect(const CoarseSolution& coarse, IndirectRefiner& indirect) 
                 solution.direct.at(node, b) = leaf_light_.direct_with_mean(node, b);
             else
                 solution.direct.at(node, b) = leaf_light_.direct(node, b);
-            solution.indirect.at(node, b) = indirect.field(node, b);
+            solution.indirect.at(node, b) = indirect(node, b);
         }
-        error = static_cast<float>(direct_.error(node) + indirect.error(node));
+        error = static_cast<float>(direct_.error(node) + error_of(node));
     };
     for (const ZoneId z : mesh_.zones())
         if (forest.is_leaf(z)) fill(z, solution.zone_error[z.value]);
@@ -278,7 +295,8 @@ Solution Loop::collect(const CoarseSolution& coarse, IndirectRefiner& indirect) 
 }  // namespace
 
 Solution solve_adaptively(std::shared_ptr<const Enclosure> enclosure, const SolveOptions& options,
-                          const std::optional<View>& view, const ProgressCallback& progress) {
+                          const std::optional<View>& view, const ProgressCallback& progress,
+                          const Passes& passes) {
     if (options.exchange != "walked")
         throw mesh::InputError(fmt::format("there is no exchange method \"{}\". Choose \"walked\".",
                                            options.exchange));
@@ -288,7 +306,7 @@ Solution solve_adaptively(std::shared_ptr<const Enclosure> enclosure, const Solv
     std::optional<tbb::global_control> threads;
     if (options.threads > 0)
         threads.emplace(tbb::global_control::max_allowed_parallelism, options.threads);
-    return Loop(std::move(enclosure), options, view, progress).run();
+    return Loop(std::move(enclosure), options, view, progress, passes).run();
 }
 
 }  // namespace tyndall::radiosity

@@ -1,13 +1,25 @@
 // The main job: coarse solution → leaves split where they depart from it → radiances recomputed.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "radiosity/progress.h"
 #include "radiosity/solution.h"
 
 namespace tyndall::radiosity {
+
+// Meshes of passes: kept, taken up again, frozen.
+struct Passes {
+    // Called with a valid solution after every pass that leaves a finer mesh.
+    std::function<void(const Solution&)> save{};
+    // Bisections of such a solution's forest (Forest::history) to begin refinement with, after the
+    // same initial mesh.
+    std::vector<mesh::Forest::Bisection> begin_with{};
+    bool frozen = false;  // nothing is bisected beyond them
+};
 
 // Purpose: solve the enclosure to the error goal, as the literature has it (docs/theory.md):
 //   1. initial mesh; rows of exchange areas; direct light; the coarse solution of the one equation
@@ -20,9 +32,14 @@ namespace tyndall::radiosity {
 //   1988)
 // View: where errors matter, if given; everywhere else.
 // A stop asked for by `progress` ends the loop at the next step; the solution is valid all the
-// same. Errors: mesh::InputError for unknown methods, or a mesh that cannot fit max_elements.
+// same.
+// Passes: the mesh of an interrupted run to go on from; a run gone on with has the same goal, not
+// the
+//   same bits.
+// Errors: mesh::InputError for unknown methods, a mesh that cannot fit max_elements, bisections of
+//   another mesh.
 Solution solve_adaptively(std::shared_ptr<const Enclosure> enclosure, const SolveOptions& options,
                           const std::optional<View>& view = {},
-                          const ProgressCallback& progress = {});
+                          const ProgressCallback& progress = {}, const Passes& passes = {});
 
 }  // namespace tyndall::radiosity

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <queue>
 
+#include "mesh/input_error.h"
+
 namespace tyndall::radiosity {
 namespace {
 
@@ -185,6 +187,34 @@ void ElementMesh::refine_to(const InitialSize& size) {
         bisect(patch);
         for (std::size_t k = before; k < patches_.size(); ++k)
             patches.push({forest_[patches_[k]].longest_edge, patches_[k].value});
+    }
+}
+
+void ElementMesh::replay(const std::vector<Forest::Bisection>& history) {
+    const auto other_mesh = [] {
+        return mesh::InputError(
+            "the mesh to go on with began as another one. Give the same scene, or begin anew.");
+    };
+    const auto same = [](const Forest::Bisection& a, const Forest::Bisection& b) {
+        return a.node == b.node && a.i == b.i && a.j == b.j && a.t == b.t;
+    };
+    const auto& own = forest_.history();
+    for (std::size_t k = 0; k < std::min(own.size(), history.size()); ++k)
+        if (!same(own[k], history[k])) throw other_mesh();
+    // A patch takes the one beyond its edge along, as it did before: one step, two bisections.
+    while (own.size() < history.size()) {
+        const std::size_t k = own.size();
+        const Forest::Bisection step = history[k];
+        const bool is_patch = step.node & 0x80000000u;
+        const std::uint32_t node = step.node & 0x7fffffffu;
+        if (node >= (is_patch ? forest_.patch_count() : forest_.zone_count())) throw other_mesh();
+        if (is_patch ? !forest_.is_leaf(PatchId(node)) : !forest_.is_leaf(ZoneId(node)))
+            throw other_mesh();
+        if (is_patch)
+            bisect(PatchId(node), {step.i, step.j}, step.t);
+        else
+            bisect(ZoneId(node), {step.i, step.j}, step.t);
+        if (!same(own[k], step)) throw other_mesh();
     }
 }
 

@@ -54,6 +54,10 @@ class ElementMesh {
     };
     void refine_to(const InitialSize& size);
 
+    // Goes on with the bisections of a forest (Forest::history) that began as this one did.
+    // Errors: mesh::InputError if it did not.
+    void replay(const std::vector<Forest::Bisection>& history);
+
     std::size_t memory() const { return forest_.memory() + samples_.memory(); }
 
   private:

@@ -118,4 +118,20 @@ void LeafLight::update_zones(IndirectRefiner& indirect, Fields& sources) {
     coarsen(forest, sources);
 }
 
+Fields LeafLight::indirect(const CoarseSolution& coarse) {
+    const Elements& e = coarse.elements();
+    const std::vector<Affine> of_elements = linear_indirect(coarse);
+    Fields result;
+    result.resize(mesh_.forest(), e.bands);
+    const auto fill = [&](auto node, std::uint32_t element) {
+        for (std::size_t b = 0; b < e.bands; ++b)
+            result.at(node, b) = of_elements[element * e.bands + b];
+    };
+    for (const ZoneId z : mesh_.zones())
+        if (mesh_.forest().is_leaf(z)) fill(z, element_above(z, e.of_zone));
+    for (const PatchId p : mesh_.patches())
+        if (mesh_.forest().is_leaf(p)) fill(p, element_above(p, e.of_patch));
+    return result;
+}
+
 }  // namespace tyndall::radiosity

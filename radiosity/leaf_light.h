@@ -31,6 +31,9 @@ class LeafLight {
     // patches reflect of direct light: it is looked at apart. Coarsened, ready for gathers.
     Fields sources(const CoarseSolution& coarse, const LitPatches* lit = nullptr);
 
+    // Indirect light of the leaves as the coarse solution knows it.
+    Fields indirect(const CoarseSolution& coarse);
+
     // Gives the zones of such sources what has been gathered there since.
     void update_zones(IndirectRefiner& indirect, Fields& sources);
 
