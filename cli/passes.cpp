@@ -24,14 +24,14 @@ std::vector<fs::path> pass_files(const fs::path& folder) {
     return files;
 }
 
-std::vector<mesh::Forest::Bisection> mesh_of(const fs::path& path, const SceneFile& file) {
+std::shared_ptr<const mesh::Forest> mesh_of(const fs::path& path, const SceneFile& file) {
     const auto pass = radiosity::read_solution(path);
     if (attached_scene(pass.attachments) != file.effective_toml)
         throw InputError(
             fmt::format("'{}' is a pass of another scene, or of other settings. Give the scene it "
                         "was made from, or leave out --resume.",
                         path.string()));
-    return pass.solution.forest.history();
+    return std::make_shared<const mesh::Forest>(pass.solution.forest);
 }
 
 }  // namespace
@@ -41,8 +41,8 @@ radiosity::Passes passes_of(const SceneFile& file, const fs::path& folder,
     const fs::path passes = folder / "passes";
     radiosity::Passes result;
     if (!choice.replay.empty()) {
-        result.begin_with =
-            radiosity::read_solution(solution_path(choice.replay)).solution.forest.history();
+        result.begin_with = std::make_shared<const mesh::Forest>(
+            radiosity::read_solution(solution_path(choice.replay)).solution.forest);
         result.frozen = true;
     } else if (choice.resume) {
         if (const auto files = pass_files(passes); !files.empty())

@@ -31,14 +31,21 @@ class Filler {
         for (const FacetId facet : outside) add_facet(facet);
         add_hull(hull);
         const auto worker = tetgen::find_worker(options.worker);
-        // M: coplanar faces are not merged; Y: none is split.
-        const auto run =
-            tetgen::run(worker, "pYMQ", input_, {options.max_seconds, 1e9, options.max_bytes});
+        // Y: no face is split; M: coplanar faces are not merged (nor are those of different
+        // markers, but an assertion of TetGen that fails one way may hold the other).
+        auto run = attempt(worker, "pYMQ", options);
+        if (run.outcome == tetgen::Outcome::died) run = attempt(worker, "pYQ", options);
         if (run.outcome != tetgen::Outcome::done) refuse(run.message, diagnose(worker, options));
         return result(run.output);
     }
 
   private:
+    tetgen::Run attempt(const std::filesystem::path& worker, const char* switches,
+                        const TetrahedralizeOptions& options) const {
+        return tetgen::run(worker, switches, input_,
+                           {options.max_seconds, options.max_seconds, options.max_bytes});
+    }
+
     // The input's point for a node of the file.
     std::uint32_t point_of(std::uint32_t node) {
         const auto [found, added] =
@@ -146,8 +153,8 @@ class Filler {
         };
         throw InputError(fmt::format(
             "{}: what is between the tetrahedra and the scene's hull cannot be filled ({}). Mesh "
-            "the volume again: tetrahedra may meet in whole faces only, neither overlap nor leave "
-            "gaps, nor cross a surface.",
+            "the volume again: tetrahedra may meet in whole faces only, and neither overlap nor "
+            "cross a surface.",
             tet == none ? file_.name : at(tet), why));
     }
 

@@ -82,7 +82,7 @@ class Loop {
         end_pass("coarse solution");
 
         const Importance importance(*enclosure_, mesh_.forest(), view_, scale_);
-        if (last) mesh_.replay(kept_.begin_with);
+        if (last && kept_.begin_with) mesh_.replay(*kept_.begin_with);
         direct_.update();
         if (adaptive())
             note(direct_.refine(importance, direct_share * goal, limits(0.8), progress_));

@@ -15,9 +15,8 @@ namespace tyndall::radiosity {
 struct Passes {
     // Called with a valid solution after every pass that leaves a finer mesh.
     std::function<void(const Solution&)> save{};
-    // Bisections of such a solution's forest (Forest::history) to begin refinement with, after the
-    // same initial mesh.
-    std::vector<mesh::Forest::Bisection> begin_with{};
+    // The forest of such a solution, to begin refinement with, after the same initial mesh.
+    std::shared_ptr<const Forest> begin_with{};
     bool frozen = false;  // nothing is bisected beyond them
 };
 

@@ -190,7 +190,8 @@ void ElementMesh::refine_to(const InitialSize& size) {
     }
 }
 
-void ElementMesh::replay(const std::vector<Forest::Bisection>& history) {
+void ElementMesh::replay(const Forest& saved) {
+    const auto& history = saved.history();
     const auto other_mesh = [] {
         return mesh::InputError(
             "the mesh to go on with began as another one. Give the same scene, or begin anew.");
@@ -201,6 +202,12 @@ void ElementMesh::replay(const std::vector<Forest::Bisection>& history) {
     const auto& own = forest_.history();
     for (std::size_t k = 0; k < std::min(own.size(), history.size()); ++k)
         if (!same(own[k], history[k])) throw other_mesh();
+    // Which end of an edge comes first depends on the vertices' numbers: they are made in the order
+    // they had.
+    for (const auto& [a, b, t] : saved.vertex_edges()) {
+        if (std::max(a, b).value >= forest_.vertex_count()) throw other_mesh();
+        forest_.vertex_on_edge(a, b, t);
+    }
     // A patch takes the one beyond its edge along, as it did before: one step, two bisections.
     while (own.size() < history.size()) {
         const std::size_t k = own.size();

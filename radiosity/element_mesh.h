@@ -54,9 +54,9 @@ class ElementMesh {
     };
     void refine_to(const InitialSize& size);
 
-    // Goes on with the bisections of a forest (Forest::history) that began as this one did.
+    // Goes on with the bisections of a forest that began as this one did.
     // Errors: mesh::InputError if it did not.
-    void replay(const std::vector<Forest::Bisection>& history);
+    void replay(const Forest& saved);
 
     std::size_t memory() const { return forest_.memory() + samples_.memory(); }
 

@@ -58,26 +58,29 @@ TEST_CASE("A room on the user's own tetrahedra is as bright as on TetGen's") {
         return solve_adaptively(std::make_shared<const Enclosure>(enclosure_of(file)), file.solve);
     };
     const Solution base = solved("solve.start=\"base\"");
-    // In front of the partition, behind it, and in its shadow.
-    const mesh::Point points[]{{0.5, 0.75, 0.5}, {1.5, 0.75, 0.8}, {1.2, 0.4, 0.2}};
+    // In front of the partition, behind it, and in its shadow. The first two differ by 0.1 to 1 %
+    // between the meshes; the last, which has 4 % of the light of the first, all of it from behind
+    // an edge, scatters over seeds by 1 to 3 %, and twice as many elements move it by 2 %.
+    const std::pair<mesh::Point, double> points[]{
+        {{0.5, 0.75, 0.5}, 0.02}, {{1.5, 0.75, 0.8}, 0.02}, {{1.2, 0.4, 0.2}, 0.06}};
     const Probe expected(base);
     for (const std::string name : {"room41.msh", "room22.msh", "room.1.ele"}) {
         INFO(name);
         const Solution own = solved("solve.mesh=\"" + name + "\"");
         CHECK(own.report.lost_rays == 0);
         const Probe probe(own);
-        for (const auto& x : points) {
+        for (const auto& [x, tolerance] : points) {
             INFO(x.x << " " << x.y << " " << x.z);
             const double wanted = expected.in_space(x).incident[0];
             const double found = probe.in_space(x).incident[0];
             INFO(found << " instead of " << wanted);
-            // Two coarse meshes of some hundred elements, 512 rays an element: see the ratio.
-            CHECK(found == Approx(wanted).epsilon(0.02));
+            CHECK(found == Approx(wanted).epsilon(tolerance));
         }
+        // Powers are sums over hundreds of elements: 0.1 % of the lamp's measured.
         for (const auto& [side, power] : base.report.net_power) {
             INFO(side << ": " << own.report.net_power.at(side)[0] << " instead of " << power[0]);
             CHECK(std::abs(own.report.net_power.at(side)[0] - power[0]) <
-                  0.01 * base.report.net_power.at("lamp+")[0]);
+                  0.003 * base.report.net_power.at("lamp+")[0]);
         }
     }
 }

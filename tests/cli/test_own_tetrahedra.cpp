@@ -68,7 +68,7 @@ const Broken broken[] = {
     {"no_elements.msh", 11, "no $Elements"},
     {"overlap.msh", 15, "tetrahedron 1 overlaps tetrahedron 2"},
     {"three_on_face.msh", 16, "tetrahedron 1 overlaps tetrahedron 3"},
-    {"one_tetrahedron.msh", 0, "do not follow surface \"room.floor"},
+    {"one_tetrahedron.msh", 0, "do not follow surface \"partition"},
     {"lifted_node.msh", 0, "do not follow surface \"room.floor"},
     {"blocks.msh", 14, "coordinates of node 4 of 4"},
     {"tets.vtu", 0, "\".vtu\" is no extension"},

@@ -240,3 +240,35 @@ TEST_CASE("The files of real meshers read whole") {
         CHECK(volume_of(file) == Approx(volume).epsilon(1e-9));
     }
 }
+
+TEST_CASE("A gap among the tetrahedra is filled, an overlap refused") {
+    const Folder folder;
+    const std::vector<Polygon> flag{{{{3, 0, 0}, {3, 1, 0}, {3, 1, 1}}, Opacity::opaque, "flag"}};
+    auto tets = cube_tets;
+    tets.erase(tets.begin() + 2);
+    const auto gap =
+        read_tet_file(folder.write("gap.msh", msh_22(corners_22, 8, elements_22(tets))));
+    const auto fitted = fit_tetrahedra(gap, conform(flag), flag);
+    const auto in_gap = locate(fitted.mesh, {0.1, 0.9, 0.5});
+    REQUIRE(in_gap.valid());
+    CHECK(volume(fitted.mesh, in_gap) == Approx(1.0 / 6.0).epsilon(1e-12));
+
+    // A tet of its own nodes, across those of the cube.
+    tets = cube_tets;
+    tets.push_back({9, 10, 11, 12});
+    const auto overlap = read_tet_file(folder.write(
+        "overlap.msh",
+        msh_22(corners_22 + "9 0.3 0.4 0.5\n10 2 0.4 0.5\n11 0.3 2 0.5\n12 0.3 0.4 2\n", 12,
+               elements_22(tets))));
+    const auto message = trouble_of(overlap, flag);
+    INFO(message);
+    CHECK(message.find("overlap.msh") != std::string::npos);
+    CHECK(message.find("tetrahedron") != std::string::npos);
+    CHECK(message.find("neither overlap nor cross a surface") != std::string::npos);
+    // One wholly inside another is no crossing of faces, but of volumes.
+    const auto nested = read_tet_file(folder.write(
+        "nested.msh",
+        msh_22(corners_22 + "9 0.8 0.3 0.1\n10 0.85 0.3 0.1\n11 0.8 0.35 0.1\n12 0.8 0.3 0.15\n",
+               12, elements_22(tets))));
+    CHECK(trouble_of(nested, flag).find("nested.msh") != std::string::npos);
+}
