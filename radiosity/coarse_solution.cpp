@@ -52,6 +52,21 @@ double CoarseSolution::split_emission(std::size_t element, std::size_t band) con
     return split ? elements_.emission[element * elements_.bands + band] : 0.0;
 }
 
+// The factor that makes what arrives from lit patches as much as they send to elements, which their
+// rows know well: few points an element miss some of it in corners.
+double CoarseSolution::lit_scale(const std::vector<double>& incident_direct,
+                                 const std::vector<double>& incident_lit, std::size_t band) const {
+    double sent = 0.0, arrived = 0.0;
+    for (std::size_t i = 0; i < elements_.size(); ++i) {
+        const std::size_t k = i * elements_.bands + band;
+        arrived += elements_.capacity[k] * incident_lit[k];
+        if (elements_.is_patch(i))
+            sent += elements_.scatter[k] * incident_direct[k] *
+                    (elements_.capacity[k] - to_outside(areas(band), elements_, i));
+    }
+    return arrived > 0.0 ? sent / arrived : 1.0;
+}
+
 void CoarseSolution::solve(const std::vector<double>& incident_direct,
                            const std::vector<double>& incident_lit) {
     const bool apart = !incident_lit.empty();
@@ -63,6 +78,7 @@ void CoarseSolution::solve(const std::vector<double>& incident_direct,
     for (std::size_t b = 0; b < bands; ++b) {
         const ExchangeAreas& rows = areas(b);
         std::vector<double> from_outside(n, 0.0), arrived(n, 0.0);
+        const double scale = apart ? lit_scale(incident_direct, incident_lit, b) : 0.0;
         for (std::size_t i = 0; i < n; ++i) {
             const double capacity = elements_.capacity[i * bands + b];
             if (capacity > 0.0)
@@ -70,7 +86,7 @@ void CoarseSolution::solve(const std::vector<double>& incident_direct,
                     to_outside(rows, elements_, i) / capacity * enclosure_.environment[b];
             const double sent =
                 apart && elements_.is_patch(i) ? 0.0 : incident_direct[i * bands + b];
-            if (apart) arrived[i] = incident_lit[i * bands + b];
+            if (apart) arrived[i] = scale * incident_lit[i * bands + b];
             source[i] = elements_.emission[i * bands + b] - split_emission(i, b) +
                         elements_.scatter[i * bands + b] * (sent + arrived[i] + from_outside[i]);
         }

@@ -45,6 +45,9 @@ class CoarseSolution {
     ElementValues values(const std::vector<double>& incident_direct) const;
 
   private:
+    double lit_scale(const std::vector<double>& incident_direct,
+                     const std::vector<double>& incident_lit, std::size_t band) const;
+
     const Enclosure& enclosure_;
     const Forest& forest_;
     SolveOptions options_;

@@ -143,7 +143,7 @@ along = "solve.rays"
     CHECK(std::set<std::string>(names.begin(), names.end()).size() == names.size());
 }
 
-TEST_CASE("--set and --seed hold for every run, but for axes") {
+TEST_CASE("Flags --set and --seed hold for every run, but for axes") {
     const auto study = cli::read_study_file(written(R"(
 reference = { "solve.error" = 0.001 }
 axes = { "solve.error" = [0.1] }
