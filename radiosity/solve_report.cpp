@@ -61,6 +61,12 @@ Report solve_report(const Enclosure& enclosure, const CoarseSolution& coarse,
     report.direct_power_check = power.direct_power_check;
     report.warnings = enclosure.warnings;
     warn_of_thick_zones(enclosure, coarse, report);
+    if (std::abs(report.direct_power_check) > 0.005)
+        report.warnings.push_back(fmt::format(
+            "{:.2g} % of the direct light {}: elements straddle shadows. Allow more of them "
+            "(solve.max_elements), or set solve.refinement to \"view\".",
+            100.0 * std::abs(report.direct_power_check),
+            report.direct_power_check < 0.0 ? "is missing" : "is too much"));
     if (ending.out_of_time)
         report.warnings.push_back(
             fmt::format("refinement ended at max_time = {} s; the estimated error is {:.3g}.",
