@@ -1,6 +1,7 @@
 // run, solve, render, probe and check as a user runs them, on a small foggy box.
 #if __has_include(<catch2/catch_all.hpp>)
 #include <catch2/catch_all.hpp>
+using Catch::Approx;
 using Catch::Matchers::Contains;
 #else
 #include <catch2/catch.hpp>
@@ -352,4 +353,29 @@ TEST_CASE("wrong usage of the jobs exits with 2") {
         CAPTURE(arguments);
         CHECK(place.run(arguments).code == 2);
     }
+}
+
+TEST_CASE("A run goes on from its last pass; a pass is replayed as it is") {
+    const Workplace place;
+    const auto elements = [&](const std::string& arguments) {
+        const auto report = nlohmann::json::parse(place.good(arguments + " --json"));
+        return report["patches"].get<int>() + report["zones"].get<int>();
+    };
+    const std::string settings = " --set solve.error=0.05";
+    const int whole = elements("solve box.toml -o out" + settings);
+    REQUIRE(place.has("out/passes/01.vtkhdf"));
+    REQUIRE(place.has("out/passes/02.vtkhdf"));
+    // As a kill in the middle of the second pass leaves it.
+    fs::remove(place.path / "out/passes/02.vtkhdf");
+    fs::remove(place.path / "out/solution.vtkhdf");
+    const int resumed = elements("solve box.toml -o out --resume" + settings);
+    CHECK(resumed == Approx(whole).epsilon(0.1));  // the goal is the same, not the bits
+    CHECK(place.has("out/passes/02.vtkhdf"));
+    const int replayed =
+        elements("solve box.toml -o again --replay out/passes/02.vtkhdf" + settings);
+    CHECK(replayed == resumed);
+
+    const auto other = place.run("solve box.toml -o out --resume");
+    CHECK(other.code == 1);
+    CHECK_THAT(other.err, Contains("another scene") && Contains("02.vtkhdf"));
 }
