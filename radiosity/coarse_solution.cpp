@@ -12,6 +12,20 @@ bool same_extinction(const Enclosure& enclosure, std::size_t a, std::size_t b) {
                        [&](const MediumOptics& m) { return m.extinction[a] == m.extinction[b]; });
 }
 
+// The function with that gradient and mean whose gradient is shortened until no corner is below 0.
+template <class Corners>
+Affine affine_not_below_0(const Forest& forest, const Corners& corners, double mean,
+                          Direction gradient) {
+    Point centre(0.0);
+    for (const VertexId corner : corners) centre += forest.point(corner);
+    centre /= static_cast<double>(corners.size());
+    double lowest = 0.0;
+    for (const VertexId corner : corners)
+        lowest = std::min(lowest, glm::dot(gradient, forest.point(corner) - centre));
+    if (mean + lowest < 0.0) gradient *= std::max(0.0, mean) / -lowest;
+    return {gradient, mean - glm::dot(gradient, centre)};
+}
+
 }  // namespace
 
 CoarseSolution::CoarseSolution(const Enclosure& enclosure, const Forest& forest,
@@ -34,10 +48,34 @@ CoarseSolution::CoarseSolution(const Enclosure& enclosure, const Forest& forest,
                                    .rays = options.rays,
                                    .seed = options.seed,
                                    .detail = options.row_detail,
+                                   .radiance = options.radiance,
                                    .progress = progress,
                                    .lost_rays = &lost_rays_}));
         rays_ += elements_.size() * options.rays;
     }
+}
+
+std::vector<Affine> CoarseSolution::linear_indirect() const {
+    const std::size_t bands = elements_.bands, n = elements_.size();
+    std::vector<Affine> result(n * bands);
+    for (std::size_t k = 0; k < result.size(); ++k) result[k].constant = indirect_[k];
+    if (options_.radiance == Radiance::constant || !elements_.member_starts.empty()) return result;
+    const auto gradients = areas_[0].gradients ? areas_[0].gradients
+                                               : std::make_shared<const ElementGradients>(
+                                                     enclosure_, forest_, elements_);
+    std::vector<double> means(n);
+    for (std::size_t b = 0; b < bands; ++b) {
+        for (std::size_t i = 0; i < n; ++i) means[i] = indirect(i, b);
+        const std::vector<glm::vec3> of_means = gradients->of(means);
+        for (std::size_t i = 0; i < n; ++i)
+            result[i * bands + b] =
+                elements_.is_patch(i)
+                    ? affine_not_below_0(forest_, forest_[elements_.patches[i]].corners, means[i],
+                                         Direction(of_means[i]))
+                    : affine_not_below_0(forest_, forest_[elements_.zone(i)].corners, means[i],
+                                         Direction(of_means[i]));
+    }
+    return result;
 }
 
 std::size_t CoarseSolution::memory() const {

@@ -36,6 +36,9 @@ class CoarseSolution {
     double indirect(std::size_t element, std::size_t band) const {
         return indirect_[element * elements_.bands + band];
     }
+    // The same in all its elements, linear where the solution is: each element's mean kept, no
+    // value at a corner below 0 ([element * bands + band]).
+    std::vector<Affine> linear_indirect() const;
     double reflected(std::size_t element, std::size_t band) const {
         return reflected_[element * elements_.bands + band];
     }

@@ -33,14 +33,19 @@ void reserve(ExchangeAreas& areas, ExchangeMethod method, const Discretization& 
     options.progress = {};
     options.lost_rays = nullptr;
     std::size_t entries = 0;
-    method(d, rows, options,
-           [&](ElementId, std::span<const std::uint32_t> columns, std::span<const double>) {
-               entries += columns.size();
-           });
+    method(d, rows, options, [&](const Row& row) { entries += row.columns.size(); });
     // A tenth more: memory that is not written to is not taken.
     const std::size_t all = entries * count / sample;
     areas.columns.reserve(all + all / 10);
     areas.values.reserve(all + all / 10);
+    if (options.radiance == Radiance::linear) areas.moments.reserve(all + all / 10);
+}
+
+// What moments of a row multiply, one an element and 0 for outside.
+std::vector<glm::vec3> gradients_of(const ExchangeAreas& areas, std::span<const double> x) {
+    std::vector<glm::vec3> gradients = areas.gradients->of(x);
+    gradients.emplace_back(0.0f);
+    return gradients;
 }
 
 }  // namespace
@@ -50,21 +55,26 @@ ExchangeAreas all_rows(ExchangeMethod method, const Discretization& discretizati
     std::vector<ElementId> rows(discretization.elements.size());
     for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = ElementId(i);
     ExchangeAreas areas;
-    ExchangeOptions with_levels = options;
+    ExchangeOptions chosen = options;
+    if (options.detail > 0.0 || !discretization.elements.member_starts.empty())
+        chosen.radiance = Radiance::constant;
+    if (chosen.radiance == Radiance::linear)
+        areas.gradients = std::make_shared<const ElementGradients>(
+            discretization.enclosure, discretization.forest, discretization.elements);
     if (options.detail > 0.0 && discretization.elements.member_starts.empty()) {
         areas.levels = options.levels
                            ? *options.levels
                            : make_row_levels(discretization.enclosure, discretization.forest,
                                              discretization.elements);
-        with_levels.levels = &areas.levels;
+        chosen.levels = &areas.levels;
     }
-    reserve(areas, method, discretization, with_levels);
-    method(discretization, rows, with_levels,
-           [&](ElementId, std::span<const std::uint32_t> columns, std::span<const double> values) {
-               areas.columns.insert(areas.columns.end(), columns.begin(), columns.end());
-               append_rounded(values, areas.values);
-               areas.starts.push_back(areas.columns.size());
-           });
+    reserve(areas, method, discretization, chosen);
+    method(discretization, rows, chosen, [&](const Row& row) {
+        areas.columns.insert(areas.columns.end(), row.columns.begin(), row.columns.end());
+        append_rounded(row.exchange_areas, areas.values);
+        areas.moments.insert(areas.moments.end(), row.moments.begin(), row.moments.end());
+        areas.starts.push_back(areas.columns.size());
+    });
     return areas;
 }
 
@@ -78,11 +88,15 @@ std::vector<double> multiply(const ExchangeAreas& areas, const Elements& element
     } else {
         values = areas.levels.pull(x);
     }
+    const bool linear = !areas.moments.empty();
+    const auto gradients = linear ? gradients_of(areas, x) : std::vector<glm::vec3>();
     std::vector<double> result(areas.rows());
     tbb::parallel_for(std::size_t(0), result.size(), [&](std::size_t i) {
         double sum = 0.0;
         for (std::size_t k = areas.starts[i]; k < areas.starts[i + 1]; ++k)
             sum += static_cast<double>(areas.values[k]) * values[areas.columns[k]];
+        for (std::size_t k = areas.starts[i]; linear && k < areas.starts[i + 1]; ++k)
+            sum += glm::dot(areas.moments[k], gradients[areas.columns[k]]);
         result[i] = sum;
     });
     return result;

@@ -3,10 +3,13 @@
 
 #include <atomic>
 #include <functional>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "radiosity/elements.h"
+#include "radiosity/gradients.h"
+#include "radiosity/options.h"
 #include "radiosity/progress.h"
 #include "radiosity/row_levels.h"
 
@@ -26,6 +29,7 @@ struct ExchangeOptions {
     double detail = 0.0;  // theta: a zone whose longest edge is h stands for the elements below it
                           // from distance t on where h ≤ theta t sqrt(4 pi / rays), a patch from
                           // eight times that; 0: never [-]
+    Radiance radiance = Radiance::constant;  // what elements hold; linear: rows have first moments
     const RowLevels* levels = nullptr;  // the nodes' columns; `all_rows` makes them if there is
                                         // detail
     ProgressCallback progress{};
@@ -33,11 +37,19 @@ struct ExchangeOptions {
         nullptr;  // counts rays that hit the walk's step cap: bugs
 };
 
-// Receives the rows, in the order asked for: the receiver, the columns (ascending;
-// elements.outside() is outside, coarser nodes come after it) and their direct exchange areas
-// [m^2].
-using RowSink = std::function<void(ElementId, std::span<const std::uint32_t> columns,
-                                   std::span<const double> exchange_areas)>;
+// A row: what one receiver exchanges with every element that it exchanges anything with.
+struct Row {
+    ElementId receiver;
+    // Ascending; elements.outside() is outside, coarser nodes come after it.
+    std::span<const std::uint32_t> columns;
+    std::span<const double> exchange_areas;  // S_ij [m^2]
+    // S_ij with x' − c_j in the integral, x' the points of j and c_j its centroid: what a gradient
+    // in j adds. Empty where elements hold constants [m^3].
+    std::span<const Direction> moments;
+};
+
+// Receives the rows, in the order asked for.
+using RowSink = std::function<void(const Row&)>;
 
 using ExchangeMethod = void (*)(const Discretization&, std::span<const ElementId> rows,
                                 const ExchangeOptions&, const RowSink&);
@@ -46,17 +58,22 @@ using ExchangeMethod = void (*)(const Discretization&, std::span<const ElementId
 struct ExchangeAreas {
     std::vector<std::size_t> starts{0};
     std::vector<std::uint32_t> columns;
-    std::vector<float> values;  // so rounded that a row keeps its sum [m^2]
-    RowLevels levels;           // what columns beyond outside stand for; empty: there are none
+    std::vector<float> values;       // so rounded that a row keeps its sum [m^2]
+    std::vector<glm::vec3> moments;  // of the entries; empty: elements hold constants [m^3]
+    RowLevels levels;                // what columns beyond outside stand for; empty: there are none
+    std::shared_ptr<const ElementGradients> gradients;  // that the moments multiply
 
     std::size_t rows() const { return starts.size() - 1; }
     std::size_t memory() const {
-        return starts.size() * 8 + columns.size() * 4 + values.size() * 4 + levels.memory();
+        return starts.size() * 8 + columns.size() * 4 + values.size() * 4 +
+               moments.size() * sizeof(glm::vec3) + levels.memory() +
+               (gradients ? gradients->memory() : 0);
     }
 };
 
-// Σ_j S_ij x_j of every row, outside left out, for x given an element. Cost: one pass over the
-// entries, in parallel.
+// Σ_j S_ij x_j of every row, outside left out, for x given an element; with moments M for x linear
+// in each element, its gradients g those of `gradients`: Σ_j S_ij x_j + M_ij · g_j. Cost: one pass
+// over the entries, in parallel.
 std::vector<double> multiply(const ExchangeAreas& areas, const Elements& elements,
                              std::span<const double> x);
 
@@ -67,7 +84,8 @@ double entry(const ExchangeAreas& areas, std::size_t row, std::uint32_t column);
 double to_outside(const ExchangeAreas& areas, const Elements& elements, std::size_t row);
 
 // All rows of all elements by one method; with options.detail also the levels above the elements,
-// where these are leaves of the forest. Memory: that of the result, and a batch of rows.
+// where these are leaves of the forest, and with Radiance::linear moments; not both: a far node's
+// mean is all that level of detail keeps of it. Memory: that of the result, and a batch of rows.
 ExchangeAreas all_rows(ExchangeMethod method, const Discretization& discretization,
                        const ExchangeOptions& options);
 

@@ -2,6 +2,7 @@
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
+#include <glm/vec4.hpp>
 
 #include <algorithm>
 #include <numbers>
@@ -18,11 +19,13 @@ struct Rows {
     std::vector<std::size_t> ends;
     std::vector<std::uint32_t> columns;
     std::vector<double> values;
+    std::vector<Direction> moments;
 
     void clear() {
         ends.clear();
         columns.clear();
         values.clear();
+        moments.clear();
     }
 };
 
@@ -30,6 +33,10 @@ struct RayStart {
     mesh::Ray ray;
     mesh::WalkStart at;
 };
+
+// Sums of shares, and with their places: (share, share × place from the hull's middle).
+using Shares = RowAccumulator<double>;
+using PlacedShares = RowAccumulator<glm::dvec4>;
 
 class Walker {
   public:
@@ -39,21 +46,20 @@ class Walker {
           points_(points),
           scene_(d, options.levels, options.band,
                  options.detail *
-                     std::sqrt(4.0 * std::numbers::pi / static_cast<double>(points.size()))) {}
+                     std::sqrt(4.0 * std::numbers::pi / static_cast<double>(points.size()))),
+          middle_(0.5 * (d.enclosure.mesh.hull_min + d.enclosure.mesh.hull_max)) {
+        if (options.radiance == Radiance::constant) return;
+        for (const PatchId patch : d.elements.patches) centres_.push_back(d.forest.centroid(patch));
+        for (const ZoneId zone : d.elements.zones) centres_.push_back(d.forest.centroid(zone));
+        centres_.push_back(middle_);  // outside
+    }
 
-    void row(ElementId id, RowAccumulator& accumulator, Rows& rows) const {
-        const std::size_t i = id.value;
-        const std::uint64_t seed = hash_seed(options_.seed, i);
-        RowWalk walk(scene_,
-                     [&](std::uint32_t column, double share) { accumulator.add(column, share); });
-        for (std::size_t k = 0; k < points_.size(); ++k) {
-            const RayStart start = start_of(i, points_(k, seed));
-            const auto arrival = walk.follow(start.ray, start.at);
-            if (arrival == mesh::Arrival::lost && options_.lost_rays) ++*options_.lost_rays;
-        }
-        const double capacity = d_.elements.capacity[i * d_.elements.bands + options_.band];
-        const double scale = capacity / static_cast<double>(points_.size());
-        accumulator.take([&](std::uint32_t column, double sum) {
+    void row(ElementId id, Shares& sums, Rows& rows) const {
+        follow(id.value, [&](const mesh::Ray&, std::uint32_t column, double share, double) {
+            sums.add(column, share);
+        });
+        const double scale = scale_of(id.value);
+        sums.take([&](std::uint32_t column, double sum) {
             if (!(sum > 0.0)) return;  // nothing was left when the ray came there
             rows.columns.push_back(column);
             rows.values.push_back(scale * sum);
@@ -61,8 +67,44 @@ class Walker {
         rows.ends.push_back(rows.columns.size());
     }
 
+    void row(ElementId id, PlacedShares& sums, Rows& rows) const {
+        follow(id.value, [&](const mesh::Ray& ray, std::uint32_t column, double share, double at) {
+            const Point place = ray.origin - middle_ + at * ray.direction;
+            sums.add(column, share * glm::dvec4(1.0, place));
+        });
+        const double scale = scale_of(id.value);
+        sums.take([&](std::uint32_t column, const glm::dvec4& sum) {
+            if (!(sum.x > 0.0)) return;
+            rows.columns.push_back(column);
+            rows.values.push_back(scale * sum.x);
+            const Point place(sum.y, sum.z, sum.w);
+            rows.moments.push_back(scale * (place - sum.x * (centres_[column] - middle_)));
+        });
+        rows.ends.push_back(rows.columns.size());
+    }
+
   private:
     using Numbers = std::array<double, point_set_dimensions>;
+
+    // deposit(ray, column, share, distance) for all the rays of an element.
+    template <class Deposit>
+    void follow(std::size_t i, Deposit&& deposit) const {
+        const std::uint64_t seed = hash_seed(options_.seed, i);
+        RayStart start;
+        RowWalk walk(scene_, [&](std::uint32_t column, double share, double distance) {
+            deposit(start.ray, column, share, distance);
+        });
+        for (std::size_t k = 0; k < points_.size(); ++k) {
+            start = start_of(i, points_(k, seed));
+            const auto arrival = walk.follow(start.ray, start.at);
+            if (arrival == mesh::Arrival::lost && options_.lost_rays) ++*options_.lost_rays;
+        }
+    }
+
+    double scale_of(std::size_t i) const {
+        return d_.elements.capacity[i * d_.elements.bands + options_.band] /
+               static_cast<double>(points_.size());
+    }
 
     RayStart start_of(std::size_t i, Numbers u) const {
         const std::uint32_t member = d_.elements.pick_member(i, u[0]);
@@ -97,17 +139,18 @@ class Walker {
     const ExchangeOptions& options_;
     const PointSet& points_;
     RowScene scene_;
+    Point middle_;                // of the hull
+    std::vector<Point> centres_;  // of columns, for moments
 };
 
-}  // namespace
-
-void exchange_walked(const Discretization& discretization, std::span<const ElementId> rows,
-                     const ExchangeOptions& options, const RowSink& sink) {
+template <class Accumulator>
+void make_rows(const Discretization& discretization, std::span<const ElementId> rows,
+               const ExchangeOptions& options, const RowSink& sink) {
     const PointSet points(options.rays);
     const Walker walker(discretization, options, points);
     const std::size_t columns =
         options.levels ? options.levels->columns() : discretization.elements.size() + 1;
-    tbb::enumerable_thread_specific<RowAccumulator> accumulators(columns);
+    tbb::enumerable_thread_specific<Accumulator> accumulators(columns);
     // In batches, so that rows arrive in order and memory stays small; a task makes a run of rows,
     // which are neighbours and walk through the same part of the trees.
     constexpr std::size_t run = 32, batch = 128 * run;
@@ -125,9 +168,12 @@ void exchange_walked(const Discretization& discretization, std::span<const Eleme
             std::size_t first = 0;
             for (std::size_t k = 0; k < finished[r].ends.size(); ++k) {
                 const std::size_t count = finished[r].ends[k] - first;
-                sink(rows[begin + r * run + k],
-                     std::span(finished[r].columns).subspan(first, count),
-                     std::span(finished[r].values).subspan(first, count));
+                const auto of_row = [&](const auto& values) {
+                    return std::span(values).subspan(std::min(first, values.size()),
+                                                     values.empty() ? 0 : count);
+                };
+                sink({rows[begin + r * run + k], of_row(finished[r].columns),
+                      of_row(finished[r].values), of_row(finished[r].moments)});
                 first += count;
             }
         }
@@ -135,6 +181,16 @@ void exchange_walked(const Discretization& discretization, std::span<const Eleme
             options.progress({"exchange areas", double(end) / double(rows.size()),
                               discretization.elements.size(), 0.0});
     }
+}
+
+}  // namespace
+
+void exchange_walked(const Discretization& discretization, std::span<const ElementId> rows,
+                     const ExchangeOptions& options, const RowSink& sink) {
+    if (options.radiance == Radiance::linear)
+        make_rows<PlacedShares>(discretization, rows, options, sink);
+    else
+        make_rows<Shares>(discretization, rows, options, sink);
 }
 
 }  // namespace tyndall::radiosity

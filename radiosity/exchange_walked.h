@@ -11,6 +11,8 @@ namespace tyndall::radiosity {
 //   the rest in the patch it ends on, or outside:
 //     S_ij = c_i/D Σ_rays T (1 − e^{−κΔs})     j a zone crossed over Δs, T the transmittance so far
 //     S_ij = c_i/D Σ_rays T                     j the patch the ray ends on              (8)–(10)
+//   Moments, if asked for, are the same sums with the mean place of each deposit, from the
+//   centroid.
 // Valid for: any mesh, any occlusion, homogeneous base tets. Rows close by construction, entries
 // are
 //   ≥ 0, self terms included. Reciprocity holds at the rate of the point set only.

@@ -32,55 +32,12 @@ LitPatches LeafLight::lit_patches() {
     return {enclosure_, forest, lit};
 }
 
-// Indirect light of the coarse elements, linear between the means of those that meet at a corner,
-// each element's own mean kept ([element * bands + band]).
-std::vector<Affine> LeafLight::linear_indirect(const CoarseSolution& coarse) {
-    const Elements& e = coarse.elements();
-    const Forest& forest = mesh_.forest();
-    std::vector<double> sum, weight;
-    std::vector<Affine> result(e.size() * e.bands);
-    for (std::size_t k = 0; k < result.size(); ++k)
-        result[k].constant = coarse.indirect(k / e.bands, k % e.bands);
-    if (!e.member_starts.empty()) return result;  // clusters have no corners
-    const auto each_corner = [&](auto&& visit) {
-        for (std::size_t i = 0; i < e.patches.size(); ++i)
-            visit(i, e.patches[i], mesh_.corners(e.patches[i]), forest.area(e.patches[i]));
-        for (std::size_t k = 0; k < e.zones.size(); ++k)
-            visit(e.patches.size() + k, e.zones[k], mesh_.corners(e.zones[k]),
-                  forest.volume(e.zones[k]));
-    };
-    each_corner([&](std::size_t i, auto, const auto& corners, double size) {
-        for (const SampleId id : corners) {
-            if (id.value >= weight.size()) {
-                weight.resize(mesh_.samples().size());
-                sum.resize(mesh_.samples().size() * e.bands);
-            }
-            weight[id.value] += size;
-            for (std::size_t b = 0; b < e.bands; ++b)
-                sum[id.value * e.bands + b] += size * coarse.indirect(i, b);
-        }
-    });
-    each_corner([&](std::size_t i, auto node, const auto& corners, double) {
-        std::array<Point, std::tuple_size_v<std::decay_t<decltype(corners)>>> points;
-        std::array<double, points.size()> values;
-        for (std::size_t b = 0; b < e.bands; ++b) {
-            for (std::size_t k = 0; k < corners.size(); ++k) {
-                points[k] = forest.point(forest[node].corners[k]);
-                values[k] = sum[corners[k].value * e.bands + b] / weight[corners[k].value];
-            }
-            result[i * e.bands + b] = with_mean(interpolate(points, values), forest.centroid(node),
-                                                coarse.indirect(i, b));
-        }
-    });
-    return result;
-}
-
 Fields LeafLight::sources(const CoarseSolution& coarse, const LitPatches* lit) {
     const Elements& e = coarse.elements();
     const Forest& forest = mesh_.forest();
     Fields result;
     result.resize(forest, e.bands);
-    const std::vector<Affine> indirect = linear_indirect(coarse);
+    const std::vector<Affine> indirect = coarse.linear_indirect();
     const auto fill = [&](auto node, std::uint32_t element) {
         for (std::size_t b = 0; b < e.bands; ++b) {
             const std::size_t k = element * e.bands + b;
@@ -120,7 +77,7 @@ void LeafLight::update_zones(IndirectRefiner& indirect, Fields& sources) {
 
 Fields LeafLight::indirect(const CoarseSolution& coarse) {
     const Elements& e = coarse.elements();
-    const std::vector<Affine> of_elements = linear_indirect(coarse);
+    const std::vector<Affine> of_elements = coarse.linear_indirect();
     Fields result;
     result.resize(mesh_.forest(), e.bands);
     const auto fill = [&](auto node, std::uint32_t element) {

@@ -27,7 +27,7 @@ class LeafLight {
     LitPatches lit_patches();
 
     // r of the leaves as the coarse solution knows it: their own direct light with its mean kept,
-    // the coarse element's indirect light made linear between elements. With `lit`, without what
+    // the coarse element's indirect light with its gradient. With `lit`, without what
     // patches reflect of direct light: it is looked at apart. Coarsened, ready for gathers.
     Fields sources(const CoarseSolution& coarse, const LitPatches* lit = nullptr);
 
@@ -46,8 +46,6 @@ class LeafLight {
     }
 
   private:
-    std::vector<Affine> linear_indirect(const CoarseSolution& coarse);
-
     const Enclosure& enclosure_;
     ElementMesh& mesh_;
     DirectRefiner& direct_;

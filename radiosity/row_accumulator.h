@@ -8,12 +8,13 @@
 namespace tyndall::radiosity {
 
 // Cost of a row: its deposits, its entries, and columns / 4096; none of sorting.
+template <class Value>
 class RowAccumulator {
   public:
     explicit RowAccumulator(std::size_t columns)
-        : values_(columns, 0.0), touched_(columns / 64 + 1), words_(columns / 4096 + 1) {}
+        : values_(columns, Value(0.0)), touched_(columns / 64 + 1), words_(columns / 4096 + 1) {}
 
-    void add(std::uint32_t column, double value) {
+    void add(std::uint32_t column, const Value& value) {
         values_[column] += value;
         touched_[column >> 6] |= 1ull << (column & 63);
         words_[column >> 12] |= 1ull << (column >> 6 & 63);
@@ -30,13 +31,13 @@ class RowAccumulator {
                     const std::size_t column =
                         64 * t + static_cast<std::size_t>(std::countr_zero(touched_[t]));
                     take(static_cast<std::uint32_t>(column), values_[column]);
-                    values_[column] = 0.0;
+                    values_[column] = Value(0.0);
                 }
             }
     }
 
   private:
-    std::vector<double> values_;
+    std::vector<Value> values_;
     std::vector<std::uint64_t> touched_, words_;  // a bit a column; a bit a word of that
 };
 

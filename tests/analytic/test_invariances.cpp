@@ -95,10 +95,10 @@ TEST_CASE("Two parallel unit squares exchange what the closed form says", "[exch
         double sum = 0.0;
         exchange_walked(
             {enclosure, forest, elements}, rows, {.rays = 1024, .progress = {}},
-            [&](ElementId, std::span<const std::uint32_t> columns, std::span<const double> values) {
-                for (std::size_t k = 0; k < columns.size(); ++k)
-                    if (columns[k] < elements.patches.size() && surface(columns[k]) == 1)
-                        sum += values[k];
+            [&](const Row& row) {
+                for (std::size_t k = 0; k < row.columns.size(); ++k)
+                    if (row.columns[k] < elements.patches.size() && surface(row.columns[k]) == 1)
+                        sum += row.exchange_areas[k];
             });
         return sum;
     };

@@ -228,7 +228,7 @@ TEST_CASE("Reciprocity of rows with level of detail comes with rays", "[rows]") 
 }
 
 TEST_CASE("Row accumulator: sums by column, ascending, and clean afterwards", "[rows]") {
-    RowAccumulator accumulator(100000);
+    RowAccumulator<double> accumulator(100000);
     test::Random random(1);
     for (int round = 0; round < 3; ++round) {
         std::map<std::uint32_t, double> expected;
