@@ -35,13 +35,12 @@ std::optional<ShadowBoundaries> shadow_boundaries(const Enclosure& enclosure,
 }
 
 void check_base(const Enclosure& enclosure, const mesh::BaseMesh& kept) {
-    const auto& own = enclosure.mesh;
-    if (own == kept) return;
+    if (enclosure.mesh == kept) return;
     throw mesh::InputError(fmt::format(
-        "the mesh to go on with has another base mesh ({} tetrahedra and {} facets; here {} and "
-        "{}): the geometry has changed, or a file that the scene names. Give the same scene and "
-        "files, or begin anew.",
-        kept.tets.size(), kept.facets.size(), own.tets.size(), own.facets.size()));
+        "the mesh to go on with has another base mesh ({} tetrahedra; here {}, or other corners): "
+        "the geometry has changed, or a file that the scene names. Give the same scene and files, "
+        "or begin anew.",
+        kept.tets.size(), enclosure.mesh.tets.size()));
 }
 
 // The loop's state, step by step; each step leaves something that a valid solution can be made of.

@@ -215,15 +215,19 @@ TEST_CASE("a run goes on with the same scene, settings and files alone") {
         CHECK(place.read("out/passes/02.vtkhdf") == before);
         CHECK(!place.has("out/passes/03.vtkhdf"));
     };
-    refused("--seed 2", "(there: [render]; here: seed = 2)");
+    refused("--seed 2", "here: seed = 2");
     refused("--set solve.error=0.1", "there: error = 0.2; here: error = 0.1");
     refused("--set material.plaster.reflectance=0.5", "other settings");
     place.write("room.toml", scene + "\n[render]\nsamples = 8\n");
     refused("", "another scene");
-    // The same text, but the file it names has changed.
+    // The same text, but the file it names has changed: one inner node has moved by 80 um.
     place.write("room.toml", scene);
     const auto own = place.read("room41.msh");
-    place.write("room41.msh", mesh::read_file(meshes / "room22.msh"));
+    auto moved = own;
+    const std::string node = "1.253107416459577 0.7462800954163946";
+    REQUIRE(moved.find(node) != std::string::npos);
+    place.write("room41.msh",
+                moved.replace(moved.find(node), node.size(), "1.253107416459577 0.7462"));
     refused("", "another base mesh");
     place.write("room41.msh", own);
     // A comment is no change.
