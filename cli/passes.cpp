@@ -4,6 +4,7 @@
 
 #include <charconv>
 #include <map>
+#include <set>
 #include <sstream>
 
 #include "cli/job.h"
@@ -36,20 +37,25 @@ std::shared_ptr<const radiosity::KeptMesh> mesh_of(radiosity::Solution&& solutio
         radiosity::KeptMesh{solution.enclosure->mesh, std::move(solution.forest)});
 }
 
-// The first lines in which two texts differ, for a message.
+// The first line of a text that another has not, or not as often.
+std::string first_line_beyond(const std::string& other, const std::string& text) {
+    std::multiset<std::string> known;
+    std::istringstream before(other), after(text);
+    std::string line;
+    while (std::getline(before, line)) known.insert(line);
+    while (std::getline(after, line)) {
+        const auto same = known.find(line);
+        if (same == known.end() && !line.empty()) return line;
+        if (same != known.end()) known.erase(same);
+    }
+    return "nothing";
+}
+
+// What two texts differ in, for a message.
 std::string difference(const std::string& there, const std::string& here) {
-    std::istringstream a(there), b(here);
-    std::string line_a, line_b;
-    const auto next = [](std::istringstream& text, std::string& line) {
-        if (!std::getline(text, line)) line = "nothing";
-        constexpr std::size_t most = 80;
-        if (line.size() > most) line = line.substr(0, most) + "…";
-    };
-    do {
-        next(a, line_a);
-        next(b, line_b);
-    } while (line_a == line_b && (a || b));
-    return fmt::format("there: {}; here: {}", line_a, line_b);
+    constexpr std::size_t most = 80;
+    return fmt::format("there: {}; here: {}", first_line_beyond(here, there).substr(0, most),
+                       first_line_beyond(there, here).substr(0, most));
 }
 
 std::shared_ptr<const radiosity::KeptMesh> mesh_to_go_on_with(const fs::path& path,

@@ -223,7 +223,7 @@ TEST_CASE("a run goes on with the same scene, settings and files alone") {
         CHECK(place.read("out/passes/02.vtkhdf") == before);
         CHECK(!place.has("out/passes/03.vtkhdf"));
     };
-    refused("--seed 2", "here: seed = 2");
+    refused("--seed 2", "there: nothing; here: seed = 2");
     refused("--set solve.error=0.1", "there: error = 0.2; here: error = 0.1");
     refused("--set material.plaster.reflectance=0.5", "other settings");
     place.write("room.toml", scene + "\n[render]\nsamples = 8\n");
