@@ -31,8 +31,7 @@ class Shell {
     CommonFlags& flags() { return flags_; }
 
     // Purpose: parse, run, and turn every outcome into an exit code: 0 done; 1 bad input or a
-    // failed run,
-    //   with one message on stderr; 2 wrong usage, with a message on stderr.
+    //   failed run, with one message on stderr; 2 wrong usage, with a message on stderr.
     // A reader of stdout that goes away (`| head`) is no failure; a full disk under stdout is one.
     int run(int argc, const char* const* argv);
 

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "mesh/file_bytes.h"
 #include "mesh/input_error.h"
 #include "radiosity/adaptive.h"
 #include "render/line_of_sight.h"
@@ -84,6 +85,7 @@ void prepare_folder(const fs::path& folder) {
     if (::access(folder.c_str(), W_OK | X_OK) != 0)
         throw InputError(fmt::format("cannot write into the folder '{}': {}.", folder.string(),
                                      std::strerror(errno)));
+    mesh::remove_unfinished(folder);
 }
 
 fs::path solution_path(const std::string& given) {

@@ -35,8 +35,8 @@ const render::Camera& find_camera(const std::vector<render::Camera>& cameras,
 render::Image make_picture(const radiosity::Solution& solution, const render::Camera& camera,
                            const render::RenderOptions& options, ProgressLine& progress);
 
-// A folder for results, made if it is not there. Throws mesh::InputError if it cannot be made or
-// written to: to be called before long work.
+// A folder for results, made if it is not there; half-written files of killed runs are removed.
+// Throws mesh::InputError if it cannot be made or written to: to be called before long work.
 void prepare_folder(const std::filesystem::path& folder);
 
 // The solution file of a folder, or the file itself.

@@ -193,10 +193,11 @@ render::DisplayImage mesh_overlay(const Solution& solution, const render::Camera
     const auto& base = solution.enclosure->mesh;
     const TetId eye = mesh::locate(base, camera.eye);
     std::vector<std::uint32_t> ids(image.width * image.height);
+    const render::CameraRays camera_ray(camera);
     tbb::parallel_for(std::size_t(0), image.height, [&](std::size_t y) {
         for (std::size_t x = 0; x < image.width; ++x) {
             auto ray =
-                camera.ray((double(x) + 0.5) / double(factor), (double(y) + 0.5) / double(factor));
+                camera_ray((double(x) + 0.5) / double(factor), (double(y) + 0.5) / double(factor));
             if (!eye.valid()) ray = moved_into(base, ray);
             ids[y * image.width + x] =
                 patch_seen(solution, ray, eye.valid() ? eye : mesh::locate(base, ray.origin));

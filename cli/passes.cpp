@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <vector>
+#include <charconv>
+#include <map>
+#include <set>
+#include <sstream>
 
 #include "cli/job.h"
 #include "mesh/input_error.h"
@@ -15,48 +17,90 @@ namespace {
 namespace fs = std::filesystem;
 using mesh::InputError;
 
-std::vector<fs::path> pass_files(const fs::path& folder) {
-    std::vector<fs::path> files;
+// Passes by number.
+std::map<int, fs::path> pass_files(const fs::path& folder) {
+    std::map<int, fs::path> files;
     std::error_code none;
-    for (const auto& entry : fs::directory_iterator(folder, none))
-        if (entry.path().extension() == ".vtkhdf") files.push_back(entry.path());
-    std::sort(files.begin(), files.end());
+    for (const auto& entry : fs::directory_iterator(folder, none)) {
+        const std::string name = entry.path().stem().string();
+        int number = 0;
+        const auto read = std::from_chars(name.data(), name.data() + name.size(), number);
+        if (entry.path().extension() == ".vtkhdf" && read.ec == std::errc() &&
+            read.ptr == name.data() + name.size())
+            files[number] = entry.path();
+    }
     return files;
 }
 
-std::shared_ptr<const mesh::Forest> mesh_of(const fs::path& path, const SceneFile& file) {
-    const auto pass = radiosity::read_solution(path);
-    if (attached_scene(pass.attachments) != file.effective_toml)
+std::shared_ptr<const radiosity::KeptMesh> mesh_of(radiosity::Solution&& solution) {
+    return std::make_shared<const radiosity::KeptMesh>(
+        radiosity::KeptMesh{solution.enclosure->mesh, std::move(solution.forest)});
+}
+
+// The first line of a text that another has not, or not as often.
+std::string first_line_beyond(const std::string& other, const std::string& text) {
+    std::multiset<std::string> known;
+    std::istringstream before(other), after(text);
+    std::string line;
+    while (std::getline(before, line)) known.insert(line);
+    while (std::getline(after, line)) {
+        const auto same = known.find(line);
+        if (same == known.end() && !line.empty()) return line;
+        if (same != known.end()) known.erase(same);
+    }
+    return "nothing";
+}
+
+// What two texts differ in, for a message.
+std::string difference(const std::string& there, const std::string& here) {
+    constexpr std::size_t most = 80;
+    return fmt::format("there: {}; here: {}", first_line_beyond(here, there).substr(0, most),
+                       first_line_beyond(there, here).substr(0, most));
+}
+
+std::shared_ptr<const radiosity::KeptMesh> mesh_to_go_on_with(const fs::path& path,
+                                                              const SceneFile& file) {
+    radiosity::SolutionFile pass;
+    try {
+        pass = radiosity::read_solution(path);
+    } catch (const InputError& error) {
+        throw InputError(fmt::format(
+            "{} Or remove that file: the run then goes on from the pass before.", error.what()));
+    }
+    const std::string scene = attached_scene(pass.attachments);
+    if (scene != file.effective_toml)
         throw InputError(
-            fmt::format("'{}' is a pass of another scene, or of other settings. Give the scene it "
-                        "was made from, or leave out --resume.",
-                        path.string()));
-    return std::make_shared<const mesh::Forest>(pass.solution.forest);
+            fmt::format("'{}' is a pass of another scene, or of other settings ({}). Give the "
+                        "scene and the settings it was made with, or leave out --resume.",
+                        path.string(), difference(scene, file.effective_toml)));
+    return mesh_of(std::move(pass.solution));
 }
 
 }  // namespace
 
-radiosity::Passes passes_of(const SceneFile& file, const fs::path& folder,
-                            const PassChoice& choice) {
-    const fs::path passes = folder / "passes";
-    radiosity::Passes result;
+PassPlan plan_passes(const SceneFile& file, const fs::path& folder, const PassChoice& choice) {
+    const fs::path folder_of_passes = folder / "passes";
+    const auto files = pass_files(folder_of_passes);
+    PassPlan plan;
+    int last = 0;
     if (!choice.replay.empty()) {
-        result.begin_with = std::make_shared<const mesh::Forest>(
-            radiosity::read_solution(solution_path(choice.replay)).solution.forest);
-        result.frozen = true;
-    } else if (choice.resume) {
-        if (const auto files = pass_files(passes); !files.empty())
-            result.begin_with = mesh_of(files.back(), file);
+        plan.passes.begin_with =
+            mesh_of(radiosity::read_solution(solution_path(choice.replay)).solution);
+        plan.passes.frozen = true;
+    } else if (choice.resume && !files.empty()) {
+        last = files.rbegin()->first;
+        plan.resumed_from = files.rbegin()->second;
+        plan.passes.begin_with = mesh_to_go_on_with(plan.resumed_from, file);
     }
+    prepare_folder(folder_of_passes);
     if (!choice.resume)
-        for (const auto& old : pass_files(passes)) fs::remove(old);
-    prepare_folder(passes);
-    result.save = [passes, attachments = attachments_json(file),
-                   number = 0](const radiosity::Solution& solution) mutable {
-        radiosity::write_solution(passes / fmt::format("{:02}.vtkhdf", ++number), solution,
-                                  attachments);
+        for (const auto& [number, old] : files) fs::remove(old);
+    plan.passes.save = [folder_of_passes, attachments = attachments_json(file),
+                        number = last](const radiosity::Solution& solution) mutable {
+        radiosity::write_solution(folder_of_passes / fmt::format("{:02}.vtkhdf", ++number),
+                                  solution, attachments);
     };
-    return result;
+    return plan;
 }
 
 }  // namespace tyndall::cli

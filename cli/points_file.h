@@ -20,12 +20,10 @@ struct PointsFile {
 };
 
 // Purpose: points from lines "x,y,z" or "x,y,z,nx,ny,nz", all of one kind; a first line with these
-// names
-//   may stand above them. Empty lines, lines that begin with '#', spaces, CRLF and a byte order
-//   mark are skipped.
+//   names may stand above them. Empty lines, lines that begin with '#', spaces, CRLF and a byte
+//   order mark are skipped.
 // Errors: mesh::InputError "file:line: …": other columns, what is no finite number, a normal of
-// length
-//   0, no point at all.
+//   length 0, no point at all.
 PointsFile parse_points(std::string_view text, const std::filesystem::path& name);
 
 }  // namespace tyndall::cli

@@ -40,13 +40,15 @@ std::string write_picture(const SceneFile& file, const radiosity::Solution& solu
 }
 
 int run(const RunOptions& options, const CommonFlags& flags, Picture picture) {
-    RunFacts facts{options.scene, 1, threads_in_use(), radiosity::wall_seconds(), {}};
+    RunFacts facts{options.scene, 1, threads_in_use(), radiosity::wall_seconds(), {}, {}};
     const SceneFile file = load_scene(options.scene, flags);
     facts.seed = file.solve.seed;
     const fs::path folder(options.out);
     prepare_folder(folder);
     ProgressLine progress(flags);
-    auto solution = solve_scene(file, progress, passes_of(file, folder, options.passes));
+    const auto plan = plan_passes(file, folder, options.passes);
+    facts.resumed_from = plan.resumed_from;
+    auto solution = solve_scene(file, progress, plan.passes);
     const auto solution_file = folder / "solution.vtkhdf";
     radiosity::write_solution(solution_file, solution, attachments_json(file));
     facts.written.push_back(solution_file);

@@ -22,6 +22,7 @@ std::string report_text(const radiosity::Report& report, const RunFacts& facts) 
               {"version", TYNDALL_VERSION},
               {"seed", facts.seed},
               {"threads", facts.threads}};
+    if (!facts.resumed_from.empty()) json["resumed_from"] = facts.resumed_from.string();
     for (const char* key : {"patches", "zones", "solved_elements", "passes"})
         json[key] = solved.at(key);
     json["cpu_seconds"] = radiosity::cpu_seconds();
@@ -33,8 +34,11 @@ std::string report_text(const radiosity::Report& report, const RunFacts& facts) 
 }
 
 std::string summary_text(const radiosity::Report& report, const RunFacts& facts) {
-    auto text = fmt::format("mesh     {} patches, {} zones, after {} passes\n", report.patches,
-                            report.zones, report.passes.size());
+    std::string text;
+    if (!facts.resumed_from.empty())
+        text += fmt::format("resumed  {}\n", facts.resumed_from.string());
+    text += fmt::format("mesh     {} patches, {} zones, after {} passes\n", report.patches,
+                        report.zones, report.passes.size());
     text += fmt::format("error    {:.3g} % estimated\n", 100.0 * report.estimated_error);
     text += fmt::format("solver   {}, {} iterations, residual {:.1e}{}\n", report.solver.method,
                         report.solver.iterations, report.solver.residual,

@@ -14,8 +14,9 @@ namespace tyndall::cli {
 struct RunFacts {
     std::string scene;  // path as given
     std::uint64_t seed = 1;
-    std::size_t threads = 0;  // that were used
-    double began = 0.0;       // radiosity::wall_seconds() then [s]
+    std::size_t threads = 0;             // that were used
+    double began = 0.0;                  // radiosity::wall_seconds() then [s]
+    std::filesystem::path resumed_from;  // the pass that was gone on with; empty: none
     std::vector<std::filesystem::path> written;
 };
 

@@ -64,7 +64,7 @@ constexpr Setting solve_settings[] = {
      [](T t, K k, Settings& s) { s.solve.element_size = t.number(k, {0.0, 1e9}); }},
     {{"max_elements", "whole number", "150000", "patches and zones together"},
      [](T t, K k, Settings& s) { s.solve.max_elements = t.count(k, 1, 4'000'000'000); }},
-    {{"max_memory", "number [byte], or \"2 GB\"", "2 GiB", "stops refining before"},
+    {{"max_memory", "number [byte], or \"2 GB\"", "\"2 GiB\"", "stops refining before"},
      [](T t, K k, Settings& s) { s.solve.max_memory = memory(t, k); }},
     {{"max_time", "number [s]", "0", "wall time; 0: no limit"},
      [](T t, K k, Settings& s) { s.solve.max_time = t.number(k, {0.0, 1e9}); }},

@@ -15,19 +15,24 @@ struct BaseFacet {
     FacetId source;                   // facet of the conforming complex its centroid lies on
     Opacity opacity = Opacity::opaque;
     std::array<TetId, 2> tets;  // on its front and on its back side; none beyond the hull
+
+    bool operator==(const BaseFacet&) const = default;
 };
 
 struct BaseMesh {
     std::vector<Point> points;                  // [m]
     std::vector<std::array<VertexId, 4>> tets;  // positively oriented: (b−a)×(c−a)·(d−a) > 0
-    std::vector<std::array<TetId, 4>>
-        neighbours;  // across the face opposite corner k; none at the hull
-    std::vector<std::array<FacetId, 4>>
-        tet_facets;  // facet on the face opposite corner k; none if free
+    // Across the face opposite corner k; none at the hull.
+    std::vector<std::array<TetId, 4>> neighbours;
+    // The facet on the face opposite corner k; none if free.
+    std::vector<std::array<FacetId, 4>> tet_facets;
     std::vector<BaseFacet> facets;
     std::vector<RegionId> regions;  // of each tet: tets connected without crossing any facet
     std::size_t region_count = 0;
     Point hull_min{0}, hull_max{0};  // the box that the mesh fills [m]
+
+    // The same to the last bit: a forest of one is a forest of the other.
+    bool operator==(const BaseMesh&) const = default;
 };
 
 // Fills regions and region_count: flood fill from tet to tet where no facet lies between.

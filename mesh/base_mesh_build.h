@@ -25,11 +25,9 @@ class Fault : public std::runtime_error {
 };
 
 // Purpose: BaseMesh from TetGen's output, where the facets of group i have the marker i + 1. Tets
-// in Hilbert
-//   order of their centroids, points in order of first use.
-// Checked: tets > 0, positive orientation, volume of the hull, area of every group, at
-// most
-//   two tets a face, one only on the hull.
+//   in Hilbert order of their centroids, points in order of first use.
+// Checked: tets > 0, positive orientation, volume of the hull, area of every group, at most two
+//   tets a face, one only on the hull.
 // Errors: Fault. Cost: O(n log n).
 BaseMesh build_base_mesh(const Output& output, const ConformingComplex& complex,
                          const FacetGroups& groups, const Hull& hull);

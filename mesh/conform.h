@@ -37,9 +37,8 @@ struct ConformOptions {
 //   TetGen accepts the result: emitters lying in a ceiling's plane, boxes on floors, crossing
 //   shelves, T-junctions, duplicates, near-coplanar planes.
 // Output: every facet with the polygons it lies on, turned the way the first of them looks. Sides:
-// the
-//   first opaque polygon owns both sides of its facets; where polygons coincide, a later opaque one
-//   takes the side its front looks to; interfaces own none.
+//   the first opaque polygon owns both sides of its facets; where polygons coincide, a later opaque
+//   one takes the side its front looks to; interfaces own none.
 // Method: points within the tolerance are one (the first to come); pieces within the tolerance of a
 //   larger one's plane lie in it; points are moved onto the planes they touch; points near edges
 //   and crossings split edges; each plane is triangulated with exact predicates and constructions,
@@ -47,12 +46,11 @@ struct ConformOptions {
 //   again with four times the tolerance, at most four times. A polygon that is flat within 1e-5 of
 //   its extent but not within the tolerance becomes triangles.
 // Errors: InputError naming the polygon (fewer than three corners, not finite, not planar, zero
-// area,
-//   self-intersecting), or the two that cannot be cut apart.
+//   area, self-intersecting), or the two that cannot be cut apart.
 // Cost: O(n log n + contacts); a plane with n points and s segments O(n s) at worst.
 // Source: per plane, Constrained_triangulation_plus_2 of CGAL; tolerance by snapping after
-// Milenkovic
-//   (1988), "Verifiable implementations of geometric algorithms using finite precision arithmetic".
+//   Milenkovic (1988), "Verifiable implementations of geometric algorithms using finite precision
+//   arithmetic".
 ConformingComplex conform(std::span<const Polygon> polygons, const ConformOptions& options = {});
 
 }  // namespace tyndall::mesh

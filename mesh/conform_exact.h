@@ -29,8 +29,7 @@ struct PlanarTriangles {
 };
 
 // Purpose: constrained Delaunay triangulation of everything inside any loop (even-odd rule).
-// Crossings
-//   of segments are found exactly and rounded last.
+//   Crossings of segments are found exactly and rounded last.
 // Cost: O(n log n) without crossings. Source: Boissonnat et al. (2002), CGAL's 2-D triangulations.
 PlanarTriangles triangulate(const PlanarSoup& soup);
 

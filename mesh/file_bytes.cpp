@@ -2,12 +2,15 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
+#include <vector>
 
 #include "mesh/input_error.h"
 
@@ -57,6 +60,23 @@ bool write_all(const File& file, std::string_view bytes) {
     return true;
 }
 
+// Some file systems cannot; those that can must not fail.
+bool bring_to_disk(const File& file) {
+    return ::fsync(file.descriptor()) == 0 || errno == EINVAL || errno == ENOSYS;
+}
+
+// The process that an unfinished file ".NAME.PROCESS.tmp" is of; 0 for other files.
+pid_t writer_of(const std::string& name) {
+    constexpr std::string_view end = ".tmp";
+    if (name.size() < 2 || name.front() != '.' || !name.ends_with(end)) return 0;
+    const std::string_view stem = std::string_view(name).substr(0, name.size() - end.size());
+    const std::string_view digits = stem.substr(stem.rfind('.') + 1);
+    pid_t process = 0;
+    const auto last = digits.data() + digits.size();
+    const auto read = std::from_chars(digits.data(), last, process);
+    return read.ec == std::errc() && read.ptr == last && process > 0 ? process : 0;
+}
+
 void check_target(const fs::path& path) {
     std::error_code ignored;
     if (path.filename().empty() || fs::is_directory(path, ignored))
@@ -78,7 +98,7 @@ void write_and_replace(const fs::path& path, std::string_view bytes) {
     beside.replace_filename(fmt::format(".{}.{}.tmp", path.filename().string(), ::getpid()));
     File file(beside, O_WRONLY | O_CREAT | O_TRUNC);
     if (!file.open()) cannot("write", path, system_reason(errno));
-    const bool written = write_all(file, bytes) && file.close();
+    const bool written = write_all(file, bytes) && bring_to_disk(file) && file.close();
     if (written && ::rename(beside.c_str(), path.c_str()) == 0) return;
     const int error = errno;
     ::unlink(beside.c_str());
@@ -116,6 +136,16 @@ void write_file(const fs::path& path, std::string_view bytes) {
     // A link stays a link: what it points to is replaced.
     const auto real = fs::exists(status) ? fs::canonical(path, error) : path;
     write_and_replace(error ? path : real, bytes);
+}
+
+void remove_unfinished(const fs::path& folder) {
+    std::vector<fs::path> dead;
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+        const pid_t writer = writer_of(entry.path().filename().string());
+        if (writer > 0 && ::kill(writer, 0) != 0 && errno == ESRCH) dead.push_back(entry.path());
+    }
+    for (const auto& path : dead) fs::remove(path, ignored);
 }
 
 }  // namespace tyndall::mesh

@@ -16,15 +16,12 @@ struct MeshFile {
 };
 
 // Purpose: read a mesh, weld vertices nearer than 1e-6 of its size, drop faces without area and
-// faces
-//   that are there twice, cut polygons that are not planar into triangles.
+//   faces that are there twice, cut polygons that are not planar into triangles.
 // OBJ is read here, in double precision, with its groups (`g`, else `o`); PLY, STL and OFF by
-// OpenMesh,
-//   which rounds coordinates to float (welding mends what that parted).
+//   OpenMesh, which rounds coordinates to float (welding mends what that parted).
 // Errors: InputError with the file's name, and the line where there is one: missing, empty,
-// truncated,
-//   not of its format, an unknown extension, an index out of range, a coordinate that is not
-//   finite, no face left. Cost: O(n log n).
+//   truncated, not of its format, an unknown extension, an index out of range, a coordinate that is
+//   not finite, no face left. Cost: O(n log n).
 MeshFile read_mesh_file(const std::filesystem::path& path);
 
 }  // namespace tyndall::mesh

@@ -33,8 +33,7 @@ inline constexpr double fit_tolerance = 1e-6;
 //   to TetGen, too; one must be followed all over or not at all, between the edges where surfaces
 //   meet.
 // Checked: area of every surface (relative 1e-6), orientation after moving, tets that overlap,
-// total
-//   volume.
+//   total volume.
 // Errors: InputError with the file's name that says which surface is not followed and where, or
 //   which tet (number, line) is at fault.
 // Cost: O(n log n), and O(facets outside × tets), and TetGen's for the filling.

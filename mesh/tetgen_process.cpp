@@ -130,14 +130,20 @@ class Child {
         posix_spawn_file_actions_adddup2(&actions, in, STDIN_FILENO);
         posix_spawn_file_actions_adddup2(&actions, out, STDOUT_FILENO);
         posix_spawn_file_actions_adddup2(&actions, err, STDERR_FILENO);
+        // In a group of its own: Ctrl-C on a terminal asks the program to stop, and must not break
+        // the meshing that it still has to wait for.
+        posix_spawnattr_t attributes;
+        posix_spawnattr_init(&attributes);
+        posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
         std::vector<char*> argv;
         for (auto& argument : arguments) {
             argv.push_back(argument.data());
         }
         argv.push_back(nullptr);
         const int error =
-            posix_spawn(&id_, program.c_str(), &actions, nullptr, argv.data(), environ);
+            posix_spawn(&id_, program.c_str(), &actions, &attributes, argv.data(), environ);
         posix_spawn_file_actions_destroy(&actions);
+        posix_spawnattr_destroy(&attributes);
         if (error != 0) {
             throw InputError(
                 fmt::format("Cannot run {} ({}). Install tyndall-tetgen beside tyndall.",

@@ -18,8 +18,7 @@ struct TetrahedralizeOptions {
 };
 
 // Purpose: fill the hull (bounding box + margin) with tetrahedra whose faces hold every facet of
-// the
-//   complex. TetGen is tried with mild quality first (facets may be split), then without.
+//   the complex. TetGen is tried with mild quality first (facets may be split), then without.
 // Checked: tets > 0, total volume, area of every source facet, orientation.
 // `polygons` are those the complex was made from; they give names to the errors.
 // Errors: InputError that names the surfaces and where, if TetGen cannot mesh the complex, runs out

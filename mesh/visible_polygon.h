@@ -1,16 +1,15 @@
 // What part of a polygon can be seen from a point, past opaque polygons, exactly.
 //
 // Method: everything is taken relative to the point. What an occluder hides of a convex polygon
-// lies in
-//   the cone from the point over the occluder and beyond the occluder's plane: an intersection of
-//   half spaces. The polygon is cut along those planes; parts outside are kept, the part in all of
-//   them is dropped. Occluders that cannot matter are culled by bounding spheres against the cone
-//   around the polygon, in a hierarchy.
+//   lies in the cone from the point over the occluder and beyond the occluder's plane: an
+//   intersection of half spaces. The polygon is cut along those planes; parts outside are kept, the
+//   part in all of them is dropped. Occluders that cannot matter are culled by bounding spheres
+//   against the cone around the polygon, in a hierarchy.
 // Seams: a part within 1e-12 of its distance from a plane counts as inside the cone, so no light
 //   leaks between occluders that share an edge.
 // Cost: O(occluders that overlap the polygon), each a few dozen flops a visible part.
 // Source: Nishita & Nakamae (1985), shadow boundaries of polygons; cone clipping as in Baum et al.
-// (1989).
+//   (1989).
 #pragma once
 
 #include <cstdint>

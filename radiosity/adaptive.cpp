@@ -34,6 +34,15 @@ std::optional<ShadowBoundaries> shadow_boundaries(const Enclosure& enclosure,
     return ShadowBoundaries(enclosure, options.direct_light == DirectLightMode::closed_form);
 }
 
+void check_base(const Enclosure& enclosure, const mesh::BaseMesh& kept) {
+    if (enclosure.mesh == kept) return;
+    throw mesh::InputError(fmt::format(
+        "the mesh to go on with has another base mesh ({} tetrahedra; here {}, or other corners): "
+        "the geometry has changed, or a file that the scene names. Give the same scene and files, "
+        "or begin anew.",
+        kept.tets.size(), enclosure.mesh.tets.size()));
+}
+
 // The loop's state, step by step; each step leaves something that a valid solution can be made of.
 class Loop {
   public:
@@ -82,14 +91,14 @@ class Loop {
         end_pass("coarse solution");
 
         const Importance importance(*enclosure_, mesh_.forest(), view_, scale_);
-        if (last && kept_.begin_with) mesh_.replay(*kept_.begin_with);
+        if (last && kept_.begin_with) mesh_.replay(kept_.begin_with->forest);
         direct_.update();
         if (adaptive())
             note(direct_.refine(importance, direct_share * goal, limits(0.8), progress_));
         const LitPatches lit = leaf_light_.lit_patches();
         solve(coarse, &lit);
         end_pass("direct light");
-        if (kept_.save) {
+        if (saving(last)) {
             const Fields indirect = leaf_light_.indirect(coarse);
             kept_.save(collect(
                 coarse, [&](auto leaf, std::size_t b) { return indirect.at(leaf, b); },
@@ -109,7 +118,7 @@ class Loop {
         solution.report.patches = mesh_.patch_leaf_count();
         solution.report.zones = mesh_.zone_leaf_count();
         solution.report.passes = passes_;
-        if (kept_.save) kept_.save(solution);
+        if (saving(last)) kept_.save(solution);
         return solution;
     }
 
@@ -129,6 +138,8 @@ class Loop {
         direct_.update();
     }
 
+    // Before the last turn the mesh to begin with is not in yet: what there is, is coarser.
+    bool saving(bool last) const { return kept_.save && (last || !kept_.begin_with); }
     bool adaptive() const { return options_.refinement >= Refinement::adaptive && !kept_.frozen; }
     // `share` of the elements allowed: what direct light may not use is left for indirect light.
     RefineLimits limits(double share) const {
@@ -303,6 +314,7 @@ Solution solve_adaptively(std::shared_ptr<const Enclosure> enclosure, const Solv
     if (options.solver != "gmres")
         throw mesh::InputError(
             fmt::format("there is no solver \"{}\". Choose \"gmres\".", options.solver));
+    if (passes.begin_with) check_base(*enclosure, passes.begin_with->base);
     std::optional<tbb::global_control> threads;
     if (options.threads > 0)
         threads.emplace(tbb::global_control::max_allowed_parallelism, options.threads);

@@ -11,32 +11,37 @@
 
 namespace tyndall::radiosity {
 
+// What of a solution refinement can begin with.
+struct KeptMesh {
+    mesh::BaseMesh base;
+    Forest forest;
+};
+
 // Meshes of passes: kept, taken up again, frozen.
 struct Passes {
-    // Called with a valid solution after every pass that leaves a finer mesh.
+    // Called with a valid solution after every pass that leaves a finer mesh than `begin_with`.
     std::function<void(const Solution&)> save{};
-    // The forest of such a solution, to begin refinement with, after the same initial mesh.
-    std::shared_ptr<const Forest> begin_with{};
-    bool frozen = false;  // nothing is bisected beyond them
+    // The mesh of such a solution, to begin refinement with, after the same initial mesh.
+    std::shared_ptr<const KeptMesh> begin_with{};
+    bool frozen = false;  // nothing is bisected beyond it
 };
 
 // Purpose: solve the enclosure to the error goal, as the literature has it (docs/theory.md):
 //   1. initial mesh; rows of exchange areas; direct light; the coarse solution of the one equation
 //   2. leaves bisected where direct light departs from linear, until the goal's share is met; the
-//   coarse
-//      solution once more with the leaves' direct light summed into its elements
+//      coarse solution once more with the leaves' direct light summed into its elements
 //   3. indirect light gathered from that solution at the elements' corners; bisected where it
-//   departs
+//      departs from linear
 //   4. every leaf's radiance recomputed from the coarse solution (Cohen et al. 1986; Rushmeier
-//   1988)
+//      1988)
 // View: where errors matter, if given; everywhere else.
-// A stop asked for by `progress` ends the loop at the next step; the solution is valid all the
-// same.
+// A stop that `progress` asks for ends the loop at the next step; the solution is valid all the
+//   same.
 // Passes: the mesh of an interrupted run to go on from; a run gone on with has the same goal, not
-// the
-//   same bits.
-// Errors: mesh::InputError for unknown methods, a mesh that cannot fit max_elements, bisections of
-//   another mesh.
+//   the same bits.
+// Errors: mesh::InputError for unknown methods, a mesh that cannot fit max_elements, a mesh to
+// begin
+//   with that is of another base mesh or of another initial mesh.
 Solution solve_adaptively(std::shared_ptr<const Enclosure> enclosure, const SolveOptions& options,
                           const std::optional<View>& view = {},
                           const ProgressCallback& progress = {}, const Passes& passes = {});

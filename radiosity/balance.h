@@ -9,8 +9,8 @@ namespace tyndall::radiosity {
 struct Balance {
     std::map<std::string, Spectrum> net_power;  // out of surface sides and media, into outside [W]
     double energy_balance = 0.0;  // (sent out − taken up − escaped) over what is brought in [-]
-    double direct_power_check =
-        0.0;  // (received + escaped − emitted) / emitted, direct light only [-]
+    // (received + escaped − emitted) / emitted, direct light only [-]
+    double direct_power_check = 0.0;
 };
 
 // Net power of element i: π c_i (x_i − H_i) [W]; of outside: π Σ_i S_i,out r_i, plus direct light

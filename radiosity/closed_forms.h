@@ -17,8 +17,7 @@ double solid_angle(std::span<const mesh::Point> corners);
 // ∫ cosθ dω [sr] over a planar polygon, θ from the unit normal n; irradiance is radiance times
 // this. Equation: ½ Σ Γ_k · n, Γ_k the angle that edge k subtends times the unit normal of its
 // plane. Valid for: polygons wholly above the horizon of n (clip first: mesh::clip). Positive
-// whichever way
-//   round the polygon runs.
+//   whichever way round the polygon runs.
 // Cost: one arc tangent an edge.
 // Source: Lambert (1760); Baum, Rushmeier & Winget (1989), eq. 9.
 double projected_solid_angle(std::span<const mesh::Point> corners, mesh::Direction n);

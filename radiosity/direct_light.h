@@ -1,20 +1,19 @@
 // Direct light at a point: closed forms over the part of each emitter that it sees.
 //
 // Purpose: H^A of the one equation, light that comes straight from emitting surfaces, sun, point
-// and
-//   spot lights, with no random rays and no noise.
+//   and spot lights, with no random rays and no noise.
 // Equations (per band, V: visible, τ: transmittance)
-//   in a medium:  H = 1/(4π) Σ ∫_V I_e τ dω            on a surface: H = 1/π Σ ∫_V I_e τ cosθ dω
-//   (1) parallel sun: H = E τ V / (4π)                                    H = E τ V cosθ / π (2)
-//   point, spot:  H = I τ V / (4π r²)                                 H = I τ V cosθ / (π r²) (3)
+//                      in a medium                      on a surface
+//   emitter:           H = 1/(4π) Σ ∫_V I_e τ dω        H = 1/π Σ ∫_V I_e τ cosθ dω     (1)
+//   parallel sun:      H = E τ V / (4π)                 H = E τ V cosθ / π              (2)
+//   point, spot:       H = I τ V / (4π r²)              H = I τ V cosθ / (π r²)         (3)
 //   The visible part of an emitter is a set of convex polygons (mesh::Occluders); each contributes
 //   its solid angle or Lambert's projected solid angle (closed_forms.h) times the mean of τ over
 //   it, by cubature with the integrand's own weights. A sun with a diameter is a polygon at
 //   infinity.
 // Symbols: E irradiance across the beam [W/m^2], I intensity [W/sr], r distance [m].
 // Valid for: Lambertian emitters, media homogeneous in each region. Where more than
-// `exact_occluders`
-//   overlap an emitter, visibility is sampled: deterministic in the point.
+//   `exact_occluders` overlap an emitter, visibility is sampled: deterministic in the point.
 // Not valid for: H of a point light right at its position (grows as 1/r²).
 // Cost: 1–3 µs an emitter in a room with a few dozen merged occluders; O(log n) culling.
 // Source: Rushmeier (1991), split of direct light; Nishita & Nakamae (1985); Lambert (1760).
@@ -31,8 +30,8 @@
 namespace tyndall::radiosity {
 
 struct DirectLightOptions {
-    std::size_t exact_occluders =
-        48;                        // that overlap an emitter as seen from a point; beyond: sampled
+    // That overlap an emitter as seen from a point; beyond: sampled.
+    std::size_t exact_occluders = 48;
     double optical_step = 0.5;     // optical depth over which τ is integrated in one go [-]
     std::size_t shadow_rays = 64;  // where visibility is sampled
     bool emitters = true;          // emitting surfaces too; else only sun, point and spot lights

@@ -35,8 +35,8 @@ struct MediumOptics {
     std::string name;
     Spectrum extinction;  // kappa_t [1/m]
     Spectrum albedo;      // a of the one equation: Omega, or 1 where heat is given [-]
-    Spectrum
-        emission;  // e of the one equation: (1−Omega) J_e, or Q/(4 kappa_t), times 1/pi [W/m^2/sr]
+    // e of the one equation: (1−Omega) J_e, or Q/(4 kappa_t), times 1/pi [W/m^2/sr]
+    Spectrum emission;
     Spectrum absorption;  // kappa_a [1/m]
 };
 
@@ -48,11 +48,11 @@ struct Enclosure {
     std::size_t bands = 1;
     mesh::BaseMesh mesh;
     std::vector<SurfaceSide> sides;
-    std::vector<std::array<std::uint32_t, 2>>
-        facet_sides;  // of each facet: index into sides of front, back; none
+    // Of each facet: index into sides of front, back; none.
+    std::vector<std::array<std::uint32_t, 2>> facet_sides;
     std::vector<MediumOptics> media;
-    std::vector<std::uint32_t>
-        region_medium;               // of each region: index into media; none: empty space
+    // Of each region: index into media; none: empty space.
+    std::vector<std::uint32_t> region_medium;
     std::vector<bool> region_solid;  // of each region
     std::vector<Light> lights;
     Spectrum environment;  // radiance from outside [W/m^2/sr]

@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "mesh/input_error.h"
+#include "radiosity/file_seal.h"
 
 namespace tyndall::radiosity {
 namespace {
@@ -198,16 +199,21 @@ std::string Hdf5Writer::finish() {
     expect(H5Fget_file_image(file_, bytes.data(), bytes.size()) == size, "the file");
     H5Fclose(file_);
     file_ = -1;
+    bytes += seal_of(bytes);
     return bytes;
 }
 
-Hdf5Reader::Hdf5Reader(const std::filesystem::path& path) : name_(path.string()), file_(-1) {
+Hdf5Reader::Hdf5Reader(const std::filesystem::path& path)
+    : name_(path.string()), bytes_(0.0), sealed_(false), file_(-1) {
     be_silent();
     std::error_code error;
     if (!std::filesystem::exists(path, error))
         throw mesh::InputError(
             fmt::format("there is no file '{}'. Make one: tyndall solve SCENE -o FOLDER.", name_));
     bytes_ = static_cast<double>(std::filesystem::file_size(path, error));
+    const Seal seal = error ? Seal::none : check_seal(path);
+    if (seal == Seal::broken) fail("it is damaged");
+    sealed_ = seal == Seal::whole;
     if (error || H5Fis_hdf5(name_.c_str()) <= 0)
         throw mesh::InputError(
             fmt::format("'{}' is not a solution file (it is no HDF5 file). Give one that tyndall "

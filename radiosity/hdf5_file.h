@@ -1,7 +1,7 @@
 // HDF5 files: arrays and texts by their paths, whole in memory while they are written.
 //
 // The same content gives the same bytes: no time stamps, no random names. Big arrays are compressed
-// (shuffle, gzip 1) and carry a checksum, so that damage shows when they are read.
+// (shuffle, gzip 1). A seal at the end (file_seal.h) shows damage before anything is read.
 #pragma once
 
 #include <cstdint>
@@ -42,12 +42,14 @@ class Hdf5Writer {
 
 class Hdf5Reader {
   public:
-    // Errors: mesh::InputError: no such file, not an HDF5 file, cut short.
+    // Errors: mesh::InputError: no such file, not an HDF5 file, cut short, damaged.
     explicit Hdf5Reader(const std::filesystem::path& path);
     ~Hdf5Reader();
     Hdf5Reader(const Hdf5Reader&) = delete;
     Hdf5Reader& operator=(const Hdf5Reader&) = delete;
 
+    // Whether the file ends with its seal: it is whole.
+    bool sealed() const { return sealed_; }
     bool has(const std::string& path) const;
 
     // Errors of all: mesh::InputError if it is not there, of another shape, or damaged.
@@ -62,6 +64,7 @@ class Hdf5Reader {
   private:
     std::string name_;
     double bytes_;
+    bool sealed_;
     std::int64_t file_;
 };
 

@@ -29,11 +29,9 @@ struct Hull {
 };
 
 // Equation: τ̄ = ∫ τ w dA / ∫ w dA over the polygon, w = cosθ_emitter / s² (· cosθ on a surface):
-// the
-//   weights of the closed form it multiplies, so that a constant τ comes out exactly.
+//   the weights of the closed form it multiplies, so that a constant τ comes out exactly.
 // Method: fan of triangles, bisected until τ's exponent varies by less than `step` over each;
-// three- or
-//   seven-point cubature (degrees 2 and 5).
+//   three- or seven-point cubature (degrees 2 and 5).
 // `corners` relative to x; of a polygon at infinity (`hull` given) directions on a plane at
 // distance 1. `mean` has one value a band.
 void mean_transmittance(const OpticalDepth& depth, const Receiver& receiver,

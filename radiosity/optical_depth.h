@@ -10,9 +10,8 @@
 namespace tyndall::radiosity {
 
 // Equation: ∫ κ_t ds = κ_x s + Σ_k (s − s_k) Δκ_k, over the interfaces k that the segment crosses
-// at
-//   distance s_k and where the extinction changes by Δκ_k: no order is needed. Where there are many
-//   interfaces, the base tets are walked instead.
+//   at distance s_k and where the extinction changes by Δκ_k: no order is needed. Where there are
+//   many interfaces, the base tets are walked instead.
 // Valid for: media homogeneous in each region.
 // Cost: one plane test an interface polygon; nothing where all is one medium.
 class OpticalDepth {

@@ -13,8 +13,9 @@ namespace tyndall::radiosity {
 // Where light of emitting surfaces is counted.
 enum class DirectLightMode {
     closed_form,  // split off and integrated over the visible part of each emitter
-    rows,  // with all other light, through the exchange areas (sun, point and spot lights stay
-           // closed form)
+    // With all other light, through the exchange areas; sun, point and spot lights stay closed
+    // form.
+    rows,
 };
 
 enum class Refinement {
@@ -47,22 +48,24 @@ struct SolveOptions {
     Refinement refinement = Refinement::aligned;
     Radiance radiance = Radiance::linear;
     DirectLightMode direct_light = DirectLightMode::closed_form;
-    double element_size =
-        0.0;  // longest edge of the initial elements [m]; 0: chosen from the scene
+    double element_size = 0.0;  // longest edge of the first elements [m]; 0: chosen from the scene
     std::size_t max_elements = 150000;    // leaves, patches and zones together
     std::size_t max_memory = 2ull << 30;  // [byte]
     double max_time = 0.0;                // wall time; 0: no limit [s]
     std::size_t max_passes = 12;          // of refinement
     std::size_t rays = 256;               // walked from each element for its row
-    double row_detail = 0.0;     // theta: rays deposit in ancestors of size ≤ theta t sqrt(4 pi /
-                                 // rays); 0: in the elements alone [-]
+    // theta: rays deposit in ancestors of size ≤ theta t sqrt(4 pi / rays); 0: in the elements
+    // alone [-]
+    double row_detail = 0.0;
     std::size_t promotions = 0;  // times the fine mesh is promoted and solved anew
-    std::size_t gather_rays =
-        256;  // of the last, fine gather: a point of a surface; a quarter in zones
+    // Of the last, fine gather: from a point of a surface; a quarter as many in zones.
+    std::size_t gather_rays = 256;
     double solver_tolerance = 1e-6;  // relative residual [-]
     std::size_t solver_iterations = 200;
     std::uint64_t seed = 1;
     std::size_t threads = 0;  // 0: all
+
+    bool operator==(const SolveOptions&) const = default;
 };
 
 // The part of space a picture shows, for refinement where the picture needs it.

@@ -12,8 +12,8 @@
 
 namespace tyndall::radiosity {
 
-inline constexpr std::size_t point_set_dimensions =
-    5;  // three for a place in a tet, two for a direction
+// Three for a place in a tet, two for a direction.
+inline constexpr std::size_t point_set_dimensions = 5;
 
 // `count` points in the unit cube of five dimensions. Of any power of two, the first pair of
 // dimensions is a (0, m, 2)-net and every other pair a (1, m, 2)-net: stratified to one and two

@@ -22,8 +22,7 @@ struct PatchValues {
 };
 
 // Purpose: J, G and E right at a point, finer than the elements: direct light by its closed forms
-// there,
-//   indirect light gathered there from what the solution's elements send out.
+//   there, indirect light gathered there from what the solution's elements send out.
 // Equations: (1) of direct_light.h for H^A, (4) of gather.h for H^I; J = e + a (H^A + H^I).
 // Every call is thread-safe and depends on its arguments alone; two points never share their
 // noise's seed with their place in a list. Keeps a reference to the solution. Cost: the fields

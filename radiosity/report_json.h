@@ -11,8 +11,7 @@ namespace tyndall::radiosity {
 enum class Costs { kept, left_out };
 
 // Purpose: a report as a JSON object with the keys of docs/guide/04-outputs.md. A net power is a
-// number with one
-//   band, otherwise an array. Without costs: no seconds, no bytes.
+//   number with one band, otherwise an array. Without costs: no seconds, no bytes.
 std::string report_to_json(const Report& report, Costs costs);
 
 // Purpose: the report again; costs that were left out are 0.

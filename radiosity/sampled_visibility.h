@@ -12,8 +12,7 @@ namespace tyndall::radiosity {
 // Equation: Σ w τ V / Σ w over points of the polygon, w as in mean_transmittance: what the whole
 //   polygon's closed form is to be multiplied by.
 // Method: `rays` points of the additive recurrence R2, shifted by a hash of the receiver's
-// position:
-//   deterministic, and unlike from point to point.
+//   position: deterministic, and unlike from point to point.
 // Arguments as in mean_transmittance. Error falls as about rays^(−3/4).
 // Source: Roberts (2018), R2; Cranley & Patterson (1976), shift.
 void sampled_transmittance(const Occlusion& occlusion, const OpticalDepth& depth,

@@ -40,8 +40,8 @@ struct Medium {
     std::string name{};
     Spectrum extinction{};  // kappa_t [1/m]
     Spectrum albedo{};      // Omega = kappa_s / kappa_t, 0 to 1 [-]
-    double asymmetry =
-        0.0;  // g of Henyey–Greenstein, −1 < g < 1; the solve uses reduced coefficients [-]
+    // g of Henyey–Greenstein, −1 < g < 1; the solve uses reduced coefficients [-]
+    double asymmetry = 0.0;
     Spectrum emission{};  // J_e; empty: none [W/m^2/sr]
     Spectrum heat{};      // instead: source Q, 0 is radiative equilibrium; empty: none [W/m^3]
     // Fills the region around this point; none: every region that is not solid [m].
@@ -66,8 +66,8 @@ struct SpotLight {
     Direction direction{};  // axis of the cone
     Spectrum intensity{};   // inside the cone [W/sr]
     double angle = 0.0;     // full opening angle [rad]
-    double soft_edge =
-        0.0;  // the intensity falls smoothly to 0 over this angle outside the cone [rad]
+    // The intensity falls smoothly to 0 over this angle outside the cone [rad].
+    double soft_edge = 0.0;
 };
 
 struct Light {

@@ -37,8 +37,8 @@ struct Report {
     double reciprocity_error = 0.0;   // of the rows [-]
     double energy_balance = 0.0;      // imbalance over power brought in [-]
     double direct_power_check = 0.0;  // (received + escaped − emitted) / emitted [-]
-    std::map<std::string, Spectrum>
-        net_power;                 // out of each surface side, medium; into outside [W]
+    // Out of each surface side, medium; into outside [W].
+    std::map<std::string, Spectrum> net_power;
     double estimated_error = 0.0;  // of the picture, or of the solution where there is no view [-]
     std::size_t lost_rays = 0;
     bool stopped = false;  // by the caller, or at a limit

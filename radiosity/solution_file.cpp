@@ -15,6 +15,19 @@ namespace {
 const std::string root = "/tyndall";
 constexpr std::uint32_t patch_bit = 0x80000000u;  // Forest::Bisection::node
 
+// Of the leaves' numbers, in the order that the arrays rely on: a program that numbers them in
+// another way must not take one leaf's values for another's.
+std::int64_t leaf_order(const Elements& elements) {
+    std::uint64_t hash = 0;
+    const auto add = [&](std::uint64_t value) {
+        hash = (hash ^ value) * 0x9e3779b97f4a7c15u;
+        hash ^= hash >> 32;
+    };
+    for (const PatchId patch : elements.patches) add(patch.value);
+    for (const ZoneId zone : elements.zones) add(std::uint64_t(zone.value) + (1ull << 32));
+    return static_cast<std::int64_t>(hash);
+}
+
 // Gradient and constant of the elements' functions, an element after the other, bands within.
 std::vector<double> field_values(const Fields& fields, const Elements& elements) {
     std::vector<double> values;
@@ -222,6 +235,7 @@ void write_solution(const std::filesystem::path& path, const Solution& solution,
     write_grid(file, solution);
     file.group(root);
     file.attribute(root, "format", std::vector<std::int64_t>{solution_format});
+    file.attribute(root, "leaf_order", std::vector<std::int64_t>{leaf_order(elements)});
     write_enclosure(file, enclosure);
     write_forest(file, solution.forest);
     file.array(root + "/direct", field_values(solution.direct, elements), 4);
@@ -242,11 +256,14 @@ SolutionFile read_solution(const std::filesystem::path& path) {
     if (format != solution_format)
         file.fail(fmt::format("its format is {}, and this program reads format {}", format,
                               solution_format));
+    if (!file.sealed()) file.fail("it is cut short: its last bytes are missing");
     SolutionFile result;
     Solution& s = result.solution;
     s.enclosure = std::make_shared<const Enclosure>(read_enclosure(file));
     s.forest = read_forest(file, s.enclosure->mesh);
     const Elements elements = elements_of_leaves(*s.enclosure, s.forest);
+    if (file.attribute(root, "leaf_order") != leaf_order(elements))
+        file.fail("another version of this program, which numbers leaves in another way, wrote it");
     s.direct = read_fields(file, root + "/direct", s.forest, elements);
     s.indirect = read_fields(file, root + "/indirect", s.forest, elements);
     read_errors(file, elements, s);

@@ -14,11 +14,12 @@
 
 namespace tyndall::radiosity {
 
-inline constexpr int solution_format = 1;
+// Raised whenever a file of before would be read as something else: what it holds, or the numbering
+// of leaves that its arrays rely on, has changed.
+inline constexpr int solution_format = 2;
 
 // Purpose: a solution as a file, which replaces an old one when it is complete. The same solution
-// gives
-//   the same bytes: what the computation cost is not in it.
+//   gives the same bytes: what the computation cost is not in it.
 // `attachments`: a JSON text that readers get back; what else belongs to the solution (cameras, …).
 // Errors: mesh::InputError: no such folder, no permission, a full disk.
 // Cost: about 400 bytes an element and band before compression, all of it in memory once.

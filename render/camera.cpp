@@ -78,11 +78,19 @@ radiosity::View Camera::view() const {
 }
 
 mesh::Ray Camera::ray(double x, double y) const {
-    const auto frame = view();
-    const double s = (2.0 * x / static_cast<double>(width) - 1.0) * frame.tan_half_x;
-    const double t = (1.0 - 2.0 * y / static_cast<double>(height)) * frame.tan_half_y;
-    return {.origin = eye,
-            .direction = glm::normalize(frame.forward + s * frame.right + t * frame.up)};
+    return CameraRays(*this)(x, y);
+}
+
+CameraRays::CameraRays(const Camera& camera)
+    : frame_(camera.view()),
+      width_(static_cast<double>(camera.width)),
+      height_(static_cast<double>(camera.height)) {}
+
+mesh::Ray CameraRays::operator()(double x, double y) const {
+    const double s = (2.0 * x / width_ - 1.0) * frame_.tan_half_x;
+    const double t = (1.0 - 2.0 * y / height_) * frame_.tan_half_y;
+    return {.origin = frame_.eye,
+            .direction = glm::normalize(frame_.forward + s * frame_.right + t * frame_.up)};
 }
 
 }  // namespace tyndall::render

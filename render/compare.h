@@ -22,13 +22,11 @@ struct PictureError {
 
 // Purpose: all measures of one layer against another of the same size.
 // Equation: e_n² = Σ_b |b| (mean_b(picture) − mean_b(reference))² / Σ_b |b|, over the blocks b of n
-// × n pixels
-//   (cut off at the right and lower edge, hence the weights |b|) and the channels; rmse is n = 1.
-//   A block averages a reference's noise away, and shows what is wrong on purpose.
-//   Values of the picture that are not finite are counted, and left out with their blocks.
+//   × n pixels (cut off at the right and lower edge, hence the weights |b|) and the channels; rmse
+//   is n = 1. A block averages a reference's noise away, and shows what is wrong on purpose. Values
+//   of the picture that are not finite are counted, and left out with their blocks.
 // Errors: mesh::InputError: sizes or channels differ; the reference has a value that is not finite,
-// or
-//   a mean of 0 while the picture differs from it.
+//   or a mean of 0 while the picture differs from it.
 PictureError compare(std::size_t width, std::size_t height, const Layer& picture,
                      const Layer& reference);
 
@@ -37,8 +35,8 @@ double block_error(std::size_t width, std::size_t height, const Layer& picture,
                    const Layer& reference, std::size_t n);
 
 // Purpose: the signed difference, mean of the channels, as a picture: white where equal, red where
-// the
-//   picture is brighter than the reference, blue where it is darker, grey where it is not finite.
+//   the picture is brighter than the reference, blue where it is darker, grey where it is not
+//   finite.
 // `range`: difference shown in full colour [as the layer].
 DisplayImage difference_picture(std::size_t width, std::size_t height, const Layer& picture,
                                 const Layer& reference, double range);

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cctype>
 
+#include "mesh/file_bytes.h"
 #include "mesh/input_error.h"
 #include "render/exr_file.h"
-#include "render/file_bytes.h"
 #include "render/pfm_file.h"
 #include "render/png_file.h"
 
@@ -49,7 +49,7 @@ Image read_image(const fs::path& path) {
             fmt::format("cannot read '{}': '{}' is no picture's ending. Give a file "
                         "that ends in .exr or .pfm.",
                         path.string(), kind));
-    const std::string bytes = read_file(path);
+    const std::string bytes = mesh::read_file(path);
     return with_name("read", path,
                      [&] { return kind == ".exr" ? decode_exr(bytes) : decode_pfm(bytes); });
 }
@@ -73,9 +73,10 @@ void write_image(const fs::path& path, const Image& image) {
     check_sizes(image);
     const std::string kind = ending(path);
     if (kind == ".png") return write_image(path, tone_map(image));
-    write_file(path, with_name("write", path, [&] {
-                   return kind == ".exr" ? encode_exr(image) : encode_pfm(image, image.layers[0]);
-               }));
+    mesh::write_file(path, with_name("write", path, [&] {
+                         return kind == ".exr" ? encode_exr(image)
+                                               : encode_pfm(image, image.layers[0]);
+                     }));
 }
 
 void write_image(const fs::path& path, const DisplayImage& image) {
@@ -85,7 +86,7 @@ void write_image(const fs::path& path, const DisplayImage& image) {
             fmt::format("cannot write '{}': a tone-mapped picture goes into a .png "
                         "file. Give such a name.",
                         path.string()));
-    write_file(path, with_name("write", path, [&] { return encode_png(image); }));
+    mesh::write_file(path, with_name("write", path, [&] { return encode_png(image); }));
 }
 
 }  // namespace tyndall::render

@@ -15,9 +15,8 @@ namespace tyndall::render {
 Image read_image(const std::filesystem::path& path);
 
 // Purpose: a picture file. EXR holds all layers, PFM the picture itself (one or three channels),
-// PNG
-//   the picture itself, tone-mapped as tone_map does by default. A file appears complete or not at
-//   all.
+//   PNG the picture itself, tone-mapped as tone_map does by default. A file appears complete or not
+//   at all.
 // Errors: mesh::InputError with the file's name: another ending, no such folder, no permission, …
 void write_image(const std::filesystem::path& path, const Image& image);
 

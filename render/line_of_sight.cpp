@@ -209,6 +209,7 @@ Image line_of_sight(const radiosity::Solution& solution, const Camera& camera,
     std::atomic<std::size_t> rows_done = 0;
     std::atomic<bool> stop = false;
 
+    const CameraRays camera_ray(camera);
     tbb::parallel_for(std::size_t(0), camera.height, [&](std::size_t y) {
         if (stop) return;
         Seen seen;
@@ -220,7 +221,7 @@ Image line_of_sight(const radiosity::Solution& solution, const Camera& camera,
             const auto seed = radiosity::hash_seed(options.seed, pixel);
             for (std::size_t k = 0; k < points.size(); ++k) {
                 const auto u = points(k, seed);
-                mesh::Ray ray = camera.ray(double(x) + u[0], double(y) + u[1]);
+                mesh::Ray ray = camera_ray(double(x) + u[0], double(y) + u[1]);
                 const Entry entry = entry_of(enclosure.mesh, ray, eye);
                 if (!entry.tet.valid() || enclosure.solid(entry.tet)) {
                     for (std::size_t b = 0; b < bands; ++b) {

@@ -17,11 +17,15 @@ struct RenderOptions {
     double direct_tolerance = 0.002;  // [-]
     std::uint64_t seed = 1;
     std::size_t threads = 0;  // 0: all
+
+    bool operator==(const RenderOptions&) const = default;
 };
 
 struct ToneMapOptions {
     double exposure = 0.0;        // stops added to the automatic exposure
     std::optional<double> white;  // radiance shown as white, instead of automatic [W/m^2/sr]
+
+    bool operator==(const ToneMapOptions&) const = default;
 };
 
 }  // namespace tyndall::render

@@ -18,10 +18,9 @@ struct DisplayImage {
 };
 
 // Purpose: the radiance that is shown as white if nobody says otherwise [W/m^2/sr]: the one that
-// puts
-//   the logarithmic average of what is lit (brighter than a thousandth of the mean) at middle grey,
-//   0.18 of the screen's light. A few very bright pixels (a lamp) or many black ones (outside) move
-//   it little. 1 for a picture without light.
+//   puts the logarithmic average of what is lit (brighter than a thousandth of the mean) at middle
+//   grey, 0.18 of the screen's light. A few very bright pixels (a lamp) or many black ones
+//   (outside) move it little. 1 for a picture without light.
 // Source: Reinhard, Stark, Shirley & Ferwerda (2002), Photographic tone reproduction, section 3.1.
 double automatic_white(const Image& image, const Layer& layer);
 
@@ -36,9 +35,8 @@ double shoulder(double s);
 double srgb_encode(double light);
 
 // Purpose: a layer (the picture itself, if none is named) as a screen shows it. One channel gives a
-// grey
-//   picture, three an RGB one, any other count the grey of their mean. Values that are not finite
-//   are black (NaN, −inf) or white (inf). An 8-bit code is the floor of the exact one plus a
+//   grey picture, three an RGB one, any other count the grey of their mean. Values that are not
+//   finite are black (NaN, −inf) or white (inf). An 8-bit code is the floor of the exact one plus a
 //   threshold from 0 to 1 that runs through the pixels as a low-discrepancy lattice: smooth walls
 //   do not band, the mean over a few pixels is the exact code, codes that are whole keep their
 //   value, and the picture is the same every time.

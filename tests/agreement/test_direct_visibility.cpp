@@ -1,15 +1,10 @@
 // Exact visibility against shadow rays, in a room as the program meshes it.
-#if __has_include(<catch2/catch_all.hpp>)
-#include <catch2/catch_all.hpp>
-#else
-#include <catch2/catch.hpp>
-#endif
-
 #include <glm/geometric.hpp>
 #include <random>
 
 #include "mesh/shapes.h"
 #include "radiosity/direct_light.h"
+#include "support/catch.h"
 
 using namespace tyndall;
 using mesh::Direction;

@@ -3,10 +3,10 @@
 
 #include <cstring>
 
-#include "mesh/catch.h"
 #include "radiosity/adaptive.h"
 #include "radiosity/exchange_walked.h"
 #include "render/line_of_sight.h"
+#include "support/catch.h"
 #include "support/rooms.h"
 
 using namespace tyndall;

@@ -2,10 +2,10 @@
 // chain of mesh, rows, solution, refinement and last gather. Figures computed for this project.
 #include <cmath>
 
-#include "mesh/catch.h"
 #include "radiosity/adaptive.h"
 #include "radiosity/direct_light.h"
 #include "radiosity/gather.h"
+#include "support/catch.h"
 #include "support/reference.h"
 #include "support/rooms.h"
 

@@ -3,8 +3,8 @@
 #include <filesystem>
 
 #include "cli/scene_file.h"
-#include "mesh/catch.h"
 #include "radiosity/adaptive.h"
+#include "support/catch.h"
 
 using namespace tyndall;
 

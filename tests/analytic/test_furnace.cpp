@@ -5,11 +5,11 @@
 #include <filesystem>
 
 #include "cli/scene_file.h"
-#include "mesh/catch.h"
 #include "radiosity/adaptive.h"
 #include "radiosity/coarse_solution.h"
 #include "radiosity/exchange_walked.h"
 #include "radiosity/refine.h"
+#include "support/catch.h"
 
 using namespace tyndall;
 using namespace tyndall::radiosity;

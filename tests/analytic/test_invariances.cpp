@@ -1,10 +1,10 @@
 // What every solution must hold: scaling, black walls, the vacuum limit, no leaks.
 #include <cmath>
 
-#include "mesh/catch.h"
 #include "radiosity/adaptive.h"
 #include "radiosity/exchange_walked.h"
 #include "radiosity/solver.h"
+#include "support/catch.h"
 #include "support/cube.h"
 #include "support/reference.h"
 #include "support/rooms.h"

@@ -2,9 +2,9 @@
 #include <cmath>
 
 #include "cli/scene_file.h"
-#include "mesh/catch.h"
 #include "radiosity/adaptive.h"
 #include "radiosity/probe.h"
+#include "support/catch.h"
 
 using namespace tyndall;
 using namespace tyndall::radiosity;

@@ -1,16 +1,11 @@
 // Light-shaft box: single-scattered source radiance and direct floor irradiance, exact visibility.
 // Figures computed for this project, see docs/validation.
-#if __has_include(<catch2/catch_all.hpp>)
-#include <catch2/catch_all.hpp>
-#else
-#include <catch2/catch.hpp>
-#endif
-
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "radiosity/direct_light.h"
 #include "support/box_mesh.h"
+#include "support/catch.h"
 
 using namespace tyndall;
 

@@ -3,9 +3,9 @@
 #include <numbers>
 
 #include "cli/scene_file.h"
-#include "mesh/catch.h"
 #include "radiosity/adaptive.h"
 #include "radiosity/probe.h"
+#include "support/catch.h"
 #include "support/reference.h"
 
 using namespace tyndall;

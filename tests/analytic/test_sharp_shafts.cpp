@@ -1,10 +1,10 @@
 // Sharp light shafts: pictures from meshes that are cut along shadows' edges and from meshes that
 // are not, against small steps along every ray with exact visibility.
 #include "cli/scene_file.h"
-#include "mesh/catch.h"
 #include "radiosity/adaptive.h"
 #include "render/compare.h"
 #include "render/line_of_sight.h"
+#include "support/catch.h"
 #include "support/marched_picture.h"
 
 using namespace tyndall;

@@ -2,9 +2,9 @@
 // areas.
 #include <cmath>
 
-#include "mesh/catch.h"
 #include "radiosity/coarse_solution.h"
 #include "radiosity/start_elements.h"
+#include "support/catch.h"
 #include "support/cube.h"
 #include "support/reference.h"
 

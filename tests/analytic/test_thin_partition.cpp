@@ -1,8 +1,8 @@
 // Light does not leak through a thin wall that closes a room in two, whatever the level of detail.
 #include <memory>
 
-#include "mesh/catch.h"
 #include "radiosity/adaptive.h"
+#include "support/catch.h"
 #include "support/rooms.h"
 
 using namespace tyndall;

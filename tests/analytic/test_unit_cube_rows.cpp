@@ -2,7 +2,7 @@
 #include <cmath>
 #include <string>
 
-#include "mesh/catch.h"
+#include "support/catch.h"
 #include "support/cube.h"
 #include "support/reference.h"
 

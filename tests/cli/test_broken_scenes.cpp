@@ -8,12 +8,7 @@
 
 #include "cli/scene_file.h"
 #include "mesh/input_error.h"
-
-#if __has_include(<catch2/catch_all.hpp>)
-#include <catch2/catch_all.hpp>
-#else
-#include <catch2/catch.hpp>
-#endif
+#include "support/catch.h"
 
 using namespace tyndall;
 namespace fs = std::filesystem;

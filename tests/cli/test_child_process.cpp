@@ -9,12 +9,7 @@
 
 #include "cli/child_process.h"
 #include "mesh/input_error.h"
-
-#if __has_include(<catch2/catch_all.hpp>)
-#include <catch2/catch_all.hpp>
-#else
-#include <catch2/catch.hpp>
-#endif
+#include "support/catch.h"
 
 using tyndall::cli::run_child;
 namespace fs = std::filesystem;

@@ -1,14 +1,5 @@
 // Runs the built program as a user does: exit codes, and what is said where.
 
-#if __has_include(<catch2/catch_all.hpp>)
-#include <catch2/catch_all.hpp>
-using Catch::Matchers::Contains;
-#else
-#include <catch2/catch.hpp>
-using Catch::Matchers::Contains;
-#endif
-
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -19,28 +10,18 @@ using Catch::Matchers::Contains;
 #include <sstream>
 
 #include "render/image_files.h"
+#include "support/catch.h"
+#include "support/program.h"
 
 namespace {
 
 using namespace tyndall;
+using test::check_one_message;
 namespace fs = std::filesystem;
 
-std::string contents(const fs::path& path) {
-    std::ostringstream text;
-    text << std::ifstream(path).rdbuf();
-    return text.str();
-}
-
-struct Outcome {
-    int code = -1;
-    std::string out, err;
-};
-
 // A folder with pictures, in which the program is run.
-struct Workplace {
-    fs::path path = fs::temp_directory_path() / ("tyndall_shell_" + std::to_string(::getpid()));
-
-    Workplace() {
+struct Workplace : test::Workplace {
+    Workplace() : test::Workplace("shell") {
         fs::create_directories(path / "out");
         render::Image image{8, 4, {{"beauty", 1, std::vector<float>(32, 2.0f)}}};
         render::write_image(path / "two.pfm", image);
@@ -55,27 +36,7 @@ struct Workplace {
         render::write_image(path / "small.pfm",
                             {4, 4, {{"beauty", 1, std::vector<float>(16, 2.0f)}}});
     }
-    ~Workplace() {
-        std::error_code ignored;
-        fs::remove_all(path, ignored);
-    }
-    // `arguments` as a shell reads them.
-    Outcome run(const std::string& arguments) const {
-        const std::string line = "cd '" + path.string() +
-                                 "' && '" TYNDALL_BINARY_DIR "/bin/tyndall' " + arguments +
-                                 " 2>err.txt";
-        const bool piped = arguments.find('>') != std::string::npos;
-        const int status = std::system((line + (piped ? "" : " >out.txt")).c_str());
-        return {WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + status,
-                piped ? "" : contents(path / "out.txt"), contents(path / "err.txt")};
-    }
 };
-
-// One message: a single line that names the program.
-void check_one_message(const Outcome& outcome) {
-    CHECK(outcome.err.rfind("tyndall: ", 0) == 0);
-    CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
-}
 
 }  // namespace
 
@@ -178,8 +139,8 @@ TEST_CASE("a reader of stdout that goes away is no failure; a full disk is one")
         "' && { sleep 0.2; '" TYNDALL_BINARY_DIR
         "/bin/tyndall' compare two.pfm two.pfm 2>err.txt; echo $? >code.txt; } | true";
     CHECK(std::system(line.c_str()) == 0);
-    CHECK(contents(place.path / "code.txt") == "0\n");
-    CHECK(contents(place.path / "err.txt").empty());
+    CHECK(place.read("code.txt") == "0\n");
+    CHECK(place.read("err.txt").empty());
     if (::access("/dev/full", W_OK) != 0) return;
     const auto full = place.run("compare two.pfm two.pfm >/dev/full");
     CHECK(full.code == 1);

@@ -1,6 +1,4 @@
 // Solutions compared with each other, in the library and by the command.
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -13,14 +11,8 @@
 #include "cli/mesh_pictures.h"
 #include "cli/scene_file.h"
 #include "radiosity/adaptive.h"
-
-#if __has_include(<catch2/catch_all.hpp>)
-#include <catch2/catch_all.hpp>
-using Catch::Matchers::Contains;
-#else
-#include <catch2/catch.hpp>
-using Catch::Matchers::Contains;
-#endif
+#include "support/catch.h"
+#include "support/program.h"
 
 using namespace tyndall;
 namespace fs = std::filesystem;
@@ -38,16 +30,8 @@ medium   = [ { name = "haze", extinction = 0.5, albedo = 0.8, at = [0.5, 0.5, 0.
 camera   = [ { name = "main", eye = [0.9, 0.1, 0.5], target = [0.3, 0.6, 0.4], fov_y = 60, width = 16, height = 12 } ]
 )";
 
-struct Folder {
-    fs::path path = fs::temp_directory_path() / ("tyndall_solutions_" + std::to_string(::getpid()));
-    Folder() {
-        fs::create_directories(path);
-        std::ofstream(path / "scene.toml") << scene;
-    }
-    ~Folder() {
-        std::error_code ignored;
-        fs::remove_all(path, ignored);
-    }
+struct Folder : test::Workplace {
+    Folder() : test::Workplace("solutions") { write("scene.toml", scene); }
 };
 
 radiosity::Solution solved(const Folder& folder, double size, double emission = 100.0) {
@@ -135,18 +119,8 @@ TEST_CASE("Pictures of a mesh show its edges") {
 
 TEST_CASE("compare takes solutions where there is no picture, and where it is told to") {
     const Folder folder;
-    const auto run = [&](const std::string& arguments) {
-        const std::string line = "cd '" + folder.path.string() +
-                                 "' && '" TYNDALL_BINARY_DIR "/bin/tyndall' " + arguments +
-                                 " >out.txt 2>err.txt";
-        const int status = std::system(line.c_str());
-        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-    };
-    const auto said = [&](const char* name) {
-        std::ostringstream text;
-        text << std::ifstream(folder.path / name).rdbuf();
-        return text.str();
-    };
+    const auto run = [&](const std::string& arguments) { return folder.run(arguments).code; };
+    const auto said = [&](const char* name) { return folder.read(name); };
     const std::string set =
         " --quiet --set solve.rays=16 --set solve.gather_rays=16 --set "
         "solve.error=0.3 --set solve.element_size=";

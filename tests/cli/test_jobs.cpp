@@ -1,116 +1,23 @@
 // run, solve, render, probe and check as a user runs them, on a small foggy box.
-#if __has_include(<catch2/catch_all.hpp>)
-#include <catch2/catch_all.hpp>
-using Catch::Approx;
-using Catch::Matchers::Contains;
-#else
-#include <catch2/catch.hpp>
-using Catch::Matchers::Contains;
-#endif
-
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "mesh/file_bytes.h"
 #include "render/image_files.h"
+#include "support/catch.h"
+#include "support/foggy_box.h"
+#include "support/program.h"
 
 namespace {
 
 using namespace tyndall;
 namespace fs = std::filesystem;
 
-constexpr const char* box = R"(format = 1
-title = "Foggy box"
-[[material]]
-name = "grey"
-reflectance = 0.5
-[[material]]
-name = "lamp"
-reflectance = 0.0
-emission = 10.0
-[[surface]]
-name = "room"
-material = "grey"
-room = { min = [0,0,0], max = [2,2,2] }
-[[surface]]
-name = "ceiling_lamp"
-material = "lamp"
-rectangle = { corner = [0.7,1.3,2], u = [0.6,0,0], v = [0,-0.6,0] }
-[[medium]]
-name = "fog"
-extinction = 0.5
-albedo = 0.8
-fills = "everywhere"
-[[camera]]
-name = "main"
-eye = [0.2,0.2,1.0]
-target = [1.5,1.5,0.8]
-fov_y = 60.0
-width = 16
-height = 12
-[[camera]]
-name = "side"
-eye = [1.8,0.2,1.0]
-target = [0.5,1.5,0.8]
-fov_y = 60.0
-width = 8
-height = 8
-[solve]
-error = 0.2
-rays = 16
-gather_rays = 16
-element_size = 1.2
-max_elements = 2000
-[render]
-samples = 4
-)";
-
-struct Outcome {
-    int code = -1;
-    std::string out, err;
-};
-
-// A folder with the scene, in which the program is run.
-struct Workplace {
-    fs::path path = fs::temp_directory_path() / ("tyndall_jobs_" + std::to_string(::getpid()));
-
-    Workplace() {
-        fs::create_directories(path);
-        write("box.toml", box);
-    }
-    ~Workplace() {
-        std::error_code ignored;
-        fs::remove_all(path, ignored);
-    }
-    void write(const std::string& name, const std::string& text) const {
-        mesh::write_file(path / name, text);
-    }
-    std::string read(const std::string& name) const { return mesh::read_file(path / name); }
-    bool has(const std::string& name) const { return fs::exists(path / name); }
-
-    // `before`: what the shell runs the program with.
-    Outcome run(const std::string& arguments, const std::string& before = "") const {
-        const std::string line = "cd '" + path.string() + "' && " + before +
-                                 " '" TYNDALL_BINARY_DIR "/bin/tyndall' " + arguments +
-                                 " >out.txt 2>err.txt";
-        const int status = std::system(line.c_str());
-        return {WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + status, read("out.txt"),
-                read("err.txt")};
-    }
-    // Runs what must succeed without a word on stderr.
-    std::string good(const std::string& arguments) const {
-        CAPTURE(arguments);
-        const auto outcome = run(arguments);
-        CHECK(outcome.err == "");
-        REQUIRE(outcome.code == 0);
-        return outcome.out;
-    }
+struct Workplace : test::Workplace {
+    Workplace() : test::Workplace("jobs") { write("box.toml", test::foggy_box); }
 };
 
 std::vector<std::vector<double>> numbers(const std::string& csv) {
@@ -204,7 +111,7 @@ TEST_CASE("solve makes no picture; its file is the same at any thread count") {
 
 TEST_CASE("a scene without a camera gives no picture, and says so") {
     const Workplace place;
-    std::string text = box;
+    std::string text = test::foggy_box;
     const auto begin = text.find("[[camera]]");
     text.erase(begin, text.find("[solve]") - begin);
     place.write("blind.toml", text);
@@ -370,12 +277,12 @@ TEST_CASE("A run goes on from its last pass; a pass is replayed as it is") {
     fs::remove(place.path / "out/solution.vtkhdf");
     const int resumed = elements("solve box.toml -o out --resume" + settings);
     CHECK(resumed == Approx(whole).epsilon(0.1));  // the goal is the same, not the bits
-    CHECK(place.has("out/passes/02.vtkhdf"));
+    CHECK(place.has("out/passes/03.vtkhdf"));
     const int replayed =
-        elements("solve box.toml -o again --replay out/passes/02.vtkhdf" + settings);
+        elements("solve box.toml -o again --replay out/passes/03.vtkhdf" + settings);
     CHECK(replayed == resumed);
 
     const auto other = place.run("solve box.toml -o out --resume");
     CHECK(other.code == 1);
-    CHECK_THAT(other.err, Contains("another scene") && Contains("02.vtkhdf"));
+    CHECK_THAT(other.err, Contains("another scene") && Contains("03.vtkhdf"));
 }

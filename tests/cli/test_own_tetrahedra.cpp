@@ -1,6 +1,4 @@
 // solve.start = "mesh": good files are meshed, broken ones refused with exit code 1 and the place.
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -10,10 +8,11 @@
 #include <sstream>
 
 #include "cli/scene_file.h"
-#include "mesh/catch.h"
 #include "mesh/input_error.h"
 #include "mesh/tet_file.h"
 #include "radiosity/enclosure.h"
+#include "support/catch.h"
+#include "support/program.h"
 
 using namespace tyndall;
 namespace fs = std::filesystem;
@@ -22,22 +21,10 @@ namespace {
 
 const fs::path meshes = fs::path(TYNDALL_SOURCE_DIR) / "tests/meshes";
 
-struct Outcome {
-    int code;
-    std::string err;
-};
-
-Outcome check(const fs::path& mesh) {
-    const fs::path err =
-        fs::temp_directory_path() / ("tyndall_own_" + std::to_string(::getpid()) + ".txt");
-    const std::string line =
-        "'" TYNDALL_BINARY_DIR "/bin/tyndall' check '" + (meshes / "room.toml").string() +
-        "' --set 'solve.mesh=" + mesh.string() + "' >/dev/null 2>'" + err.string() + "'";
-    const int status = std::system(line.c_str());
-    std::ostringstream text;
-    text << std::ifstream(err).rdbuf();
-    fs::remove(err);
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + status, text.str()};
+test::Outcome check(const fs::path& mesh) {
+    const test::Workplace place("own");
+    return place.run("check '" + (meshes / "room.toml").string() +
+                     "' --set 'solve.mesh=" + mesh.string() + "'");
 }
 
 // File, the line it names (0: none), part of what is said.
@@ -85,7 +72,7 @@ TEST_CASE("Broken files of tetrahedra are refused with their name and line") {
     const fs::path folder = fs::path(TYNDALL_SOURCE_DIR) / "tests/broken/tetrahedra";
     std::set<std::string> tested;
     for (const Broken& b : broken) {
-        const Outcome outcome = check(folder / b.file);
+        const test::Outcome outcome = check(folder / b.file);
         INFO(b.file << ": " << outcome.err);
         CHECK(outcome.code == 1);
         CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
@@ -101,7 +88,7 @@ TEST_CASE("Broken files of tetrahedra are refused with their name and line") {
 }
 
 TEST_CASE("Meshes that leave out a surface are refused with its name") {
-    const Outcome partition = check("no_partition.msh"), lamp = check("no_lamp.msh");
+    const test::Outcome partition = check("no_partition.msh"), lamp = check("no_lamp.msh");
     CHECK(partition.code == 1);
     CHECK(partition.err.find("no_partition.msh do not follow surface \"partition") !=
           std::string::npos);

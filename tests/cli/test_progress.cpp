@@ -1,11 +1,3 @@
-#if __has_include(<catch2/catch_all.hpp>)
-#include <catch2/catch_all.hpp>
-using Catch::Matchers::Contains;
-#else
-#include <catch2/catch.hpp>
-using Catch::Matchers::Contains;
-#endif
-
 #include <pty.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -14,6 +6,7 @@ using Catch::Matchers::Contains;
 #include <cstdlib>
 
 #include "cli/progress.h"
+#include "support/catch.h"
 
 namespace {
 

@@ -1,20 +1,17 @@
 #include "cli/scene_file.h"
 
+#include <unistd.h>
+
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <sstream>
 
 #include "mesh/input_error.h"
-
-#if __has_include(<catch2/catch_all.hpp>)
-#include <catch2/catch_all.hpp>
-using Catch::Approx;
-#else
-#include <catch2/catch.hpp>
-#endif
+#include "support/catch.h"
 
 using namespace tyndall;
 namespace fs = std::filesystem;
@@ -36,7 +33,8 @@ room = { min = [0, 0, 0], max = [4, 3, 2] }
 
 // Reads a scene from text; the file is removed.
 cli::SceneFile read(const std::string& text, const std::vector<std::string>& overrides = {}) {
-    const fs::path path = fs::path(TYNDALL_BINARY_DIR) / "scene_under_test.toml";
+    const fs::path path =
+        fs::temp_directory_path() / ("tyndall_scene_" + std::to_string(::getpid()) + ".toml");
     std::ofstream(path) << text;
     struct Remove {
         const fs::path& path;
@@ -325,4 +323,35 @@ TEST_CASE("The reference of keys has every table and no empty type") {
         CHECK(holds(text, part));
     }
     CHECK(!holds(text, "` |  |"));
+}
+
+TEST_CASE("The defaults that the reference names are those of the structs") {
+    const auto plain = read("format = 1\n" + material + room);
+    std::istringstream text(cli::scene_file_reference());
+    std::string line, table;
+    std::size_t checked = 0;
+    while (std::getline(text, line)) {
+        if (line.starts_with("### ")) table = line.substr(4);
+        if ((table != "[solve]" && table != "[render]") || !line.starts_with("| `")) continue;
+        // | `key` | type | default | meaning |
+        std::vector<std::string> cells;
+        std::istringstream row(line);
+        for (std::string cell; std::getline(row, cell, '|');) cells.push_back(cell);
+        REQUIRE(cells.size() == 5);
+        const std::string key = cells[1].substr(2, cells[1].size() - 4);
+        const std::string fallback = cells[3].substr(1, cells[3].size() - 2);
+        // What no value of the key says: none, or something that is found in the scene.
+        if (key == "camera" || key == "mesh" || key == "white") continue;
+        CAPTURE(table, key, fallback);
+        const auto file =
+            read("format = 1\n" + material + room + table + "\n" + key + " = " + fallback + "\n");
+        CHECK(file.solve == plain.solve);
+        CHECK(file.render == plain.render);
+        CHECK(file.tone_map == plain.tone_map);
+        ++checked;
+    }
+    CHECK(checked >= 20);
+    CHECK(plain.solve == radiosity::SolveOptions());
+    CHECK(plain.render == render::RenderOptions());
+    CHECK(plain.tone_map == render::ToneMapOptions());
 }

@@ -1,14 +1,9 @@
-#if __has_include(<catch2/catch_all.hpp>)
-#include <catch2/catch_all.hpp>
-#else
-#include <catch2/catch.hpp>
-#endif
-
 #include <new>
 #include <vector>
 
 #include "cli/commands.h"
 #include "mesh/input_error.h"
+#include "support/catch.h"
 
 namespace {
 

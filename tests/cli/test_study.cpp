@@ -1,6 +1,4 @@
 // Real, tiny studies: the matrix, what is kept, widening, failures, stops.
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -14,14 +12,8 @@
 
 #include "cli/study_record.h"
 #include "render/image_files.h"
-
-#if __has_include(<catch2/catch_all.hpp>)
-#include <catch2/catch_all.hpp>
-using Catch::Matchers::Contains;
-#else
-#include <catch2/catch.hpp>
-using Catch::Matchers::Contains;
-#endif
+#include "support/catch.h"
+#include "support/program.h"
 
 using namespace tyndall;
 namespace fs = std::filesystem;
@@ -40,46 +32,14 @@ solve    = { rays = 16, gather_rays = 16, element_size = 0.7 }
 render   = { samples = 4 }
 )";
 
-struct Outcome {
-    int code = -1;
-    std::string out, err;
-};
-
-std::string contents(const fs::path& path) {
-    std::ostringstream text;
-    text << std::ifstream(path).rdbuf();
-    return text.str();
-}
-
-struct Workplace {
-    fs::path path = fs::temp_directory_path() / ("tyndall_study_" + std::to_string(::getpid()));
-
-    Workplace() {
-        fs::remove_all(path);
-        fs::create_directories(path);
-        write("scene.toml", scene);
-    }
-    ~Workplace() {
-        std::error_code ignored;
-        fs::remove_all(path, ignored);
-    }
-    void write(const std::string& name, const std::string& text) const {
-        std::ofstream(path / name) << text;
-    }
-    Outcome run(const std::string& arguments) const {
-        const std::string line = "cd '" + path.string() +
-                                 "' && '" TYNDALL_BINARY_DIR "/bin/tyndall' " + arguments +
-                                 " >out.txt 2>err.txt";
-        const int status = std::system(line.c_str());
-        return {WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + status, contents(path / "out.txt"),
-                contents(path / "err.txt")};
-    }
+struct Workplace : test::Workplace {
+    Workplace() : test::Workplace("study") { write("scene.toml", scene); }
     // When the run was made; it is made anew where this changes.
     fs::file_time_type made(const std::string& slug) const {
         return fs::last_write_time(path / "out/runs" / slug / "solution.vtkhdf");
     }
     std::size_t rows() const {
-        const auto csv = contents(path / "out/study.csv");
+        const auto csv = read("out/study.csv");
         return static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')) - 1;
     }
 };
@@ -150,13 +110,13 @@ TEST_CASE("A study runs its matrix, measures, plots, and keeps what is done") {
     SECTION("another slice: the same runs, drawn again") {
         const auto before = place.made("refinement-uniform_element_size-0.5");
         const auto slice = place.path / "out/runs/refinement-uniform_element_size-0.5/slice.png";
-        const auto drawn = contents(slice);
+        const auto drawn = mesh::read_file(slice);
         place.write("study.toml", std::string("slice = { point = [0.2, 0.5, 0.5], normal = [1, 0, "
                                               "0] }\n") +
                                       two_runs);
         CHECK(place.run("study study.toml -o out --quiet").code == 0);
         CHECK(place.made("refinement-uniform_element_size-0.5") == before);
-        CHECK(contents(slice) != drawn);
+        CHECK(mesh::read_file(slice) != drawn);
     }
     SECTION("another scene: all is run again") {
         const auto before = place.made("refinement-uniform_element_size-0.5");
@@ -209,7 +169,7 @@ reference = "good/image.exr"
     REQUIRE(record);
     CHECK(record->failed());
     CHECK_THAT(record->failure, Contains("haze"));
-    CHECK_THAT(contents(place.path / "out/study.md"), Contains("1 of which failed"));
+    CHECK_THAT(place.read("out/study.md"), Contains("1 of which failed"));
 }
 
 TEST_CASE("An axis that changes the scene has a reference for each of its values") {
@@ -259,23 +219,15 @@ TEST_CASE("A study that is stopped or killed goes on where it was") {
     text.replace(text.find("[0.9, 0.5]"), 10, "[0.9, 0.5, 0.45, 0.4, 0.35, 0.32]");
     place.write("study.toml", text);
     const int signal = GENERATE(SIGINT, SIGKILL);
-    const pid_t child = ::fork();
-    REQUIRE(child >= 0);
-    if (child == 0) {
-        if (::chdir(place.path.c_str()) != 0) ::_exit(3);
-        ::execl(TYNDALL_BINARY_DIR "/bin/tyndall", "tyndall", "study", "study.toml", "-o", "out",
-                "--quiet", static_cast<char*>(nullptr));
-        ::_exit(3);
-    }
+    test::Running child(place.path, {"study", "study.toml", "-o", "out", "--quiet"});
     // Not before the first run is done; a minute is enough on any machine.
     const auto first = place.path / "out/runs/refinement-uniform_element_size-0.9/run.json";
     for (int k = 0; k < 6000 && !fs::exists(first); ++k)
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
     REQUIRE(fs::exists(first));
-    ::kill(child, signal);
-    int status = 0;
-    ::waitpid(child, &status, 0);
-    if (signal == SIGINT) CHECK((WIFEXITED(status) && WEXITSTATUS(status) == 1));
+    child.signal(signal);
+    const int code = test::exit_code(child.wait());
+    if (signal == SIGINT) CHECK(code == 1);
     // A child of the killed study ends by itself; until then it may hold its folder.
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
     const auto before = place.made("refinement-uniform_element_size-0.9");

@@ -9,14 +9,7 @@
 #include "cli/study_summary.h"
 #include "cli/study_table.h"
 #include "mesh/input_error.h"
-
-#if __has_include(<catch2/catch_all.hpp>)
-#include <catch2/catch_all.hpp>
-using Catch::Matchers::Contains;
-#else
-#include <catch2/catch.hpp>
-using Catch::Matchers::Contains;
-#endif
+#include "support/catch.h"
 
 using namespace tyndall;
 using namespace tyndall::cli;

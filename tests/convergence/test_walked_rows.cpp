@@ -1,7 +1,7 @@
 // The rate at which walked rows approach the exact exchange areas of the unit cube.
 #include <cmath>
 
-#include "mesh/catch.h"
+#include "support/catch.h"
 #include "support/cube.h"
 #include "support/reference.h"
 

@@ -1,10 +1,4 @@
 // The documents say what the program does: their scenes can be read, their reference is complete.
-#if __has_include(<catch2/catch_all.hpp>)
-#include <catch2/catch_all.hpp>
-#else
-#include <catch2/catch.hpp>
-#endif
-
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -14,6 +8,7 @@
 
 #include "cli/scene_file.h"
 #include "cli/study_file.h"
+#include "support/catch.h"
 
 namespace {
 

@@ -1,11 +1,5 @@
 // The house's floor plan, read from the sources: includes and links run one way, and every
 // third-party library stays in its room.
-#if __has_include(<catch2/catch_all.hpp>)
-#include <catch2/catch_all.hpp>
-#else
-#include <catch2/catch.hpp>
-#endif
-
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -13,6 +7,8 @@
 #include <sstream>
 #include <string>
 #include <vector>
+
+#include "support/catch.h"
 
 namespace {
 

@@ -2,9 +2,9 @@
 
 #include <random>
 
-#include "mesh/catch.h"
 #include "mesh/geometry.h"
 #include "mesh/tetrahedralize.h"
+#include "support/catch.h"
 
 using namespace geometry;
 

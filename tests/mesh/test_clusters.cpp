@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <set>
 
-#include "mesh/catch.h"
 #include "mesh/cluster_graph.h"
 #include "mesh/walk.h"
 #include "support/box_mesh.h"
+#include "support/catch.h"
 #include "support/random_rays.h"
 
 using namespace tyndall;

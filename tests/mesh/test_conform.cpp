@@ -3,11 +3,11 @@
 #include <chrono>
 #include <random>
 
-#include "mesh/catch.h"
 #include "mesh/conform_exact.h"
 #include "mesh/geometry.h"
 #include "mesh/input_error.h"
 #include "mesh/tetrahedralize.h"
+#include "support/catch.h"
 
 using namespace geometry;
 using Catch::Matchers::Contains;

@@ -2,8 +2,8 @@
 
 #include <set>
 
-#include "mesh/catch.h"
 #include "support/box_mesh.h"
+#include "support/catch.h"
 
 using namespace tyndall;
 using namespace tyndall::mesh;

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <set>
 
-#include "mesh/catch.h"
 #include "support/box_mesh.h"
+#include "support/catch.h"
 #include "support/ray_scenes.h"
 
 using namespace tyndall;

@@ -5,8 +5,8 @@
 #include <fstream>
 #include <glm/geometric.hpp>
 
-#include "mesh/catch.h"
 #include "mesh/input_error.h"
+#include "support/catch.h"
 
 using namespace tyndall::mesh;
 namespace fs = std::filesystem;

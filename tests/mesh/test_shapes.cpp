@@ -2,8 +2,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "mesh/catch.h"
 #include "mesh/input_error.h"
+#include "support/catch.h"
 
 using namespace tyndall::mesh;
 

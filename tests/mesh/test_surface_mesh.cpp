@@ -4,7 +4,7 @@
 #include <map>
 #include <set>
 
-#include "mesh/catch.h"
+#include "support/catch.h"
 #include "support/ray_scenes.h"
 
 using namespace tyndall;

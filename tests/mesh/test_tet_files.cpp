@@ -5,12 +5,12 @@
 #include <fstream>
 #include <glm/geometric.hpp>
 
-#include "mesh/catch.h"
 #include "mesh/conform.h"
 #include "mesh/input_error.h"
 #include "mesh/shapes.h"
 #include "mesh/tet_file.h"
 #include "mesh/tet_file_fit.h"
+#include "support/catch.h"
 
 using namespace tyndall::mesh;
 namespace fs = std::filesystem;

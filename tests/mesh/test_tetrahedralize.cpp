@@ -5,10 +5,10 @@
 #include <map>
 #include <set>
 
-#include "mesh/catch.h"
 #include "mesh/geometry.h"
 #include "mesh/input_error.h"
 #include "mesh/tetgen_process.h"
+#include "support/catch.h"
 
 using namespace geometry;
 using Catch::Matchers::Contains;

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <optional>
 
-#include "mesh/catch.h"
 #include "mesh/forest.h"
 #include "support/box_mesh.h"
+#include "support/catch.h"
 #include "support/random_rays.h"
 #include "support/ray_scenes.h"
 

@@ -1,9 +1,3 @@
-#if __has_include(<catch2/catch_all.hpp>)
-#include <catch2/catch_all.hpp>
-#else
-#include <catch2/catch.hpp>
-#endif
-
 #include "radiosity/closed_forms.h"
 
 #include <cmath>
@@ -12,6 +6,7 @@
 #include <vector>
 
 #include "mesh/visible_polygon.h"
+#include "support/catch.h"
 #include "support/gauss.h"
 
 using namespace tyndall;

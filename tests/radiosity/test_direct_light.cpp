@@ -1,9 +1,3 @@
-#if __has_include(<catch2/catch_all.hpp>)
-#include <catch2/catch_all.hpp>
-#else
-#include <catch2/catch.hpp>
-#endif
-
 #include "radiosity/direct_light.h"
 
 #include <tbb/parallel_for.h>
@@ -15,6 +9,7 @@
 
 #include "radiosity/closed_forms.h"
 #include "support/box_mesh.h"
+#include "support/catch.h"
 #include "support/gauss.h"
 
 using namespace tyndall;

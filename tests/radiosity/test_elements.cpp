@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "mesh/catch.h"
 #include "mesh/input_error.h"
 #include "radiosity/start_elements.h"
+#include "support/catch.h"
 #include "support/rooms.h"
 
 using namespace tyndall;

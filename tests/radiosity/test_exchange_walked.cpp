@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "mesh/catch.h"
+#include "support/catch.h"
 #include "support/cube.h"
 #include "support/random_rays.h"
 

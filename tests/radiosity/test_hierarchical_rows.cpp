@@ -5,11 +5,11 @@
 #include <map>
 #include <numbers>
 
-#include "mesh/catch.h"
 #include "radiosity/coarse_solution.h"
 #include "radiosity/element_mesh.h"
 #include "radiosity/exchange_walked.h"
 #include "radiosity/row_accumulator.h"
+#include "support/catch.h"
 #include "support/random_rays.h"
 #include "support/rooms.h"
 

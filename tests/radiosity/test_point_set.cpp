@@ -1,4 +1,5 @@
 #include "radiosity/point_set.h"
+#include "support/catch.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +7,6 @@
 #include <set>
 
 #include <glm/geometric.hpp>
-
-#include "mesh/catch.h"
 
 using namespace tyndall;
 using mesh::Direction;

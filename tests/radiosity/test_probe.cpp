@@ -1,18 +1,11 @@
 // Probes in enclosures whose answer is known.
-#if __has_include(<catch2/catch_all.hpp>)
-#include <catch2/catch_all.hpp>
-using Catch::Matchers::Contains;
-#else
-#include <catch2/catch.hpp>
-using Catch::Matchers::Contains;
-#endif
-
 #include <numbers>
 
 #include "mesh/input_error.h"
 #include "radiosity/adaptive.h"
 #include "radiosity/probe.h"
 #include "support/box_mesh.h"
+#include "support/catch.h"
 
 namespace {
 

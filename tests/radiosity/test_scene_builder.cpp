@@ -1,7 +1,7 @@
 #include "radiosity/scene_builder.h"
 
-#include "mesh/catch.h"
 #include "mesh/input_error.h"
+#include "support/catch.h"
 
 using namespace tyndall;
 using namespace tyndall::radiosity;

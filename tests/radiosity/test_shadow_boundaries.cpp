@@ -4,10 +4,10 @@
 #include <random>
 #include <set>
 
-#include "mesh/catch.h"
 #include "radiosity/adaptive.h"
 #include "radiosity/refine.h"
 #include "radiosity/solution_file.h"
+#include "support/catch.h"
 #include "support/rooms.h"
 
 using namespace tyndall;

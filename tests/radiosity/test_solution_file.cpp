@@ -1,24 +1,20 @@
 // Solution files keep every number to the last bit, and broken ones are told.
-#if __has_include(<catch2/catch_all.hpp>)
-#include <catch2/catch_all.hpp>
-using Catch::Matchers::Contains;
-#else
-#include <catch2/catch.hpp>
-using Catch::Matchers::Contains;
-#endif
-
 #include <unistd.h>
 
 #include <filesystem>
+#include <random>
 
 #include "mesh/file_bytes.h"
 #include "mesh/input_error.h"
 #include "radiosity/adaptive.h"
+#include "radiosity/file_seal.h"
+#include "radiosity/hdf5_file.h"
 #include "radiosity/probe.h"
 #include "radiosity/report_json.h"
 #include "radiosity/solution_file.h"
 #include "radiosity/start_elements.h"
 #include "support/box_mesh.h"
+#include "support/catch.h"
 
 namespace {
 
@@ -193,32 +189,84 @@ TEST_CASE("files that are no solutions, or not all of one, are refused") {
     CHECK_THROWS_WITH(read_solution(path), Contains("not a solution file"));
     write_solution(path, small_solution());
     const std::string bytes = mesh::read_file(path);
-    for (const double share : {0.0, 0.001, 0.1, 0.5, 0.9, 0.9999}) {
-        CAPTURE(share);
-        mesh::write_file(path, bytes.substr(0, std::size_t(share * double(bytes.size()))));
+    for (int k = 0; k < 40; ++k) {
+        // Near the end every length, before that at even steps.
+        const std::size_t length = k < 20 ? bytes.size() - 1 - k : bytes.size() * (k - 20) / 20;
+        CAPTURE(length);
+        mesh::write_file(path, bytes.substr(0, length));
         CHECK_THROWS_AS(read_solution(path), mesh::InputError);
     }
     CHECK_THROWS_WITH(write_solution(folder.path / "none" / "s", small_solution()),
                       Contains("does not exist"));
 }
 
-TEST_CASE("a damaged solution file is read right or refused, never more") {
+TEST_CASE("a solution file of another format is refused, and its number is told") {
+    const Folder folder;
+    const auto path = folder.path / "solution.vtkhdf";
+    for (const int format : {1, solution_format + 1}) {
+        Hdf5Writer file;
+        file.group("/tyndall");
+        file.attribute("/tyndall", "format", std::vector<std::int64_t>{format});
+        const std::string bytes = file.finish();
+        // Format 1 had no seal.
+        mesh::write_file(path, format == 1 ? bytes.substr(0, bytes.size() - 16) : bytes);
+        CHECK_THROWS_WITH(read_solution(path),
+                          Contains("its format is " + std::to_string(format)) &&
+                              Contains("reads format " + std::to_string(solution_format)) &&
+                              Contains("Solve the scene again"));
+    }
+    Hdf5Writer other;
+    other.group("/other");
+    mesh::write_file(path, other.finish());
+    CHECK_THROWS_WITH(read_solution(path), Contains("another program wrote it"));
+}
+
+TEST_CASE("a solution file with a wrong byte anywhere is refused") {
     const Folder folder;
     const auto path = folder.path / "solution.vtkhdf";
     write_solution(path, small_solution());
     const std::string bytes = mesh::read_file(path);
-    std::uint32_t random = 12345;
-    std::size_t refused = 0;
-    for (int n = 0; n < 60; ++n) {
-        random = random * 1664525u + 1013904223u;
+    std::mt19937 random(12345);
+    for (int n = 0; n < 300; ++n) {
+        const std::size_t place = random() % bytes.size();
         std::string damaged = bytes;
-        damaged[random % bytes.size()] ^= char(1u << (random >> 29));
+        damaged[place] ^= char(1 + random() % 255);
+        CAPTURE(place);
         mesh::write_file(path, damaged);
+        CHECK_THROWS_WITH(read_solution(path), Contains("solution.vtkhdf"));
+    }
+    mesh::write_file(path, bytes);
+    CHECK_NOTHROW(read_solution(path));
+}
+
+TEST_CASE("wrong bytes under a right seal are read right or refused, never more") {
+    const Folder folder;
+    const auto path = folder.path / "solution.vtkhdf";
+    write_solution(path, small_solution());
+    const std::string bytes = mesh::read_file(path);
+    const std::string sealed = bytes.substr(0, bytes.size() - 16);
+    CHECK(sealed + seal_of(sealed) == bytes);
+    const auto message = [&](std::size_t place, int bit) -> std::string {
+        std::string damaged = sealed;
+        damaged[place] ^= char(1 << bit);
+        mesh::write_file(path, damaged + seal_of(damaged));
         try {
             read_solution(path);
-        } catch (const mesh::InputError&) {
-            ++refused;
+        } catch (const mesh::InputError& error) {
+            return error.what();
         }
-    }
+        return "";
+    };
+    std::mt19937 random(12345);
+    std::size_t refused = 0;
+    for (int n = 0; n < 60; ++n) refused += !message(random() % sealed.size(), n % 8).empty();
     CHECK(refused > 10);  // what viewers alone read is not looked at
+
+    // The number that stands for the leaves' order follows its name within a hundred bytes.
+    std::size_t of_other_order = 0;
+    const std::size_t name = sealed.find("leaf_order");
+    REQUIRE(name != std::string::npos);
+    for (std::size_t place = name + 10; place < name + 100; ++place)
+        of_other_order += message(place, 0).find("numbers leaves") != std::string::npos;
+    CHECK(of_other_order >= 8);  // its bytes; some of its type change how it is read, too
 }

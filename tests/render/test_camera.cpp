@@ -1,17 +1,10 @@
-#if __has_include(<catch2/catch_all.hpp>)
-#include <catch2/catch_all.hpp>
-using Catch::Matchers::Contains;
-#else
-#include <catch2/catch.hpp>
-using Catch::Matchers::Contains;
-#endif
-
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "mesh/input_error.h"
 #include "render/camera.h"
+#include "support/catch.h"
 
 namespace {
 

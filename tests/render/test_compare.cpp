@@ -1,16 +1,9 @@
-#if __has_include(<catch2/catch_all.hpp>)
-#include <catch2/catch_all.hpp>
-using Catch::Matchers::Contains;
-#else
-#include <catch2/catch.hpp>
-using Catch::Matchers::Contains;
-#endif
-
 #include <cmath>
 #include <limits>
 
 #include "mesh/input_error.h"
 #include "render/compare.h"
+#include "support/catch.h"
 
 namespace {
 

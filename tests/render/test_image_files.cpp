@@ -1,11 +1,3 @@
-#if __has_include(<catch2/catch_all.hpp>)
-#include <catch2/catch_all.hpp>
-using Catch::Matchers::Contains;
-#else
-#include <catch2/catch.hpp>
-using Catch::Matchers::Contains;
-#endif
-
 #include <ImfChannelList.h>
 #include <ImfFrameBuffer.h>
 #include <ImfHeader.h>
@@ -21,11 +13,12 @@ using Catch::Matchers::Contains;
 #include <map>
 #include <stdexcept>
 
+#include "mesh/file_bytes.h"
 #include "mesh/input_error.h"
 #include "render/exr_file.h"
-#include "render/file_bytes.h"
 #include "render/image_files.h"
 #include "render/pfm_file.h"
+#include "support/catch.h"
 
 namespace {
 
@@ -95,7 +88,7 @@ TEST_CASE("EXR: the same picture makes the same bytes, and leaves nothing beside
     const auto image = picture(3);
     write_image(folder.path / "a.exr", image);
     write_image(folder.path / "b.EXR", image);
-    CHECK(read_file(folder.path / "a.exr") == read_file(folder.path / "b.EXR"));
+    CHECK(mesh::read_file(folder.path / "a.exr") == mesh::read_file(folder.path / "b.EXR"));
     const auto begin = fs::directory_iterator(folder.path);
     CHECK(std::distance(begin, fs::directory_iterator{}) == 2);
 }
@@ -184,7 +177,7 @@ TEST_CASE("PFM: what is written is read, and rows go from the bottom up") {
         image.layers[0].values[1] = std::nanf("");
         write_image(folder.path / "picture.pfm", image);
         check_same(image, read_image(folder.path / "picture.pfm"));
-        const auto bytes = read_file(folder.path / "picture.pfm");
+        const auto bytes = mesh::read_file(folder.path / "picture.pfm");
         float last = 0.0f;  // of the file: the right end of the top row
         std::memcpy(&last, bytes.data() + bytes.size() - 4, 4);
         CHECK(last == image.layers[0].values[image.width * channels - 1]);
@@ -227,27 +220,28 @@ TEST_CASE("files that cannot be read or written are named") {
     fs::create_directory(folder.path / "taken.exr");
     CHECK_THROWS_WITH(write_image(folder.path / "taken.exr", image), Contains("folder"));
     CHECK_THROWS_WITH(read_image(folder.path / "taken.exr"), Contains("folder"));
-    write_file(folder.path / "text.exr", "this is no picture");
+    mesh::write_file(folder.path / "text.exr", "this is no picture");
     CHECK_THROWS_WITH(read_image(folder.path / "text.exr"),
                       Contains("text.exr") && Contains("not an EXR"));
 }
 
 TEST_CASE("a failed write leaves the old file as it was") {
     if (::access("/dev/full", W_OK) != 0) return;
-    CHECK_THROWS_WITH(write_file("/dev/full", std::string(100000, 'x')), Contains("No space"));
+    CHECK_THROWS_WITH(mesh::write_file("/dev/full", std::string(100000, 'x')),
+                      Contains("No space"));
     const Folder folder;
-    write_file(folder.path / "kept.pfm", "old");
+    mesh::write_file(folder.path / "kept.pfm", "old");
     CHECK_THROWS_AS(write_image(folder.path / "kept.pfm", picture(2)), mesh::InputError);
-    CHECK(read_file(folder.path / "kept.pfm") == "old");
+    CHECK(mesh::read_file(folder.path / "kept.pfm") == "old");
 }
 
 TEST_CASE("writing through a link keeps the link") {
     const Folder folder;
-    write_file(folder.path / "real.bin", "old");
+    mesh::write_file(folder.path / "real.bin", "old");
     fs::create_symlink("real.bin", folder.path / "link.bin");
-    write_file(folder.path / "link.bin", "new");
+    mesh::write_file(folder.path / "link.bin", "new");
     CHECK(fs::is_symlink(folder.path / "link.bin"));
-    CHECK(read_file(folder.path / "real.bin") == "new");
+    CHECK(mesh::read_file(folder.path / "real.bin") == "new");
 }
 
 TEST_CASE("layers are found by name, and direct_single is a sum") {

@@ -1,9 +1,3 @@
-#if __has_include(<catch2/catch_all.hpp>)
-#include <catch2/catch_all.hpp>
-#else
-#include <catch2/catch.hpp>
-#endif
-
 #include <png.h>
 
 #include <cmath>
@@ -13,6 +7,7 @@
 #include "mesh/input_error.h"
 #include "render/png_file.h"
 #include "render/tone_map.h"
+#include "support/catch.h"
 
 namespace {
 

@@ -54,11 +54,12 @@ inline render::Layer marched_picture(const radiosity::Enclosure& enclosure,
         const auto& optics = enclosure.sides[side];
         return radiance + transmittance * (optics.emission[0] + optics.reflectance[0] * h);
     };
+    const render::CameraRays camera_ray(camera);
     tbb::parallel_for(std::size_t(0), layer.values.size(), [&](std::size_t pixel) {
         double sum = 0.0;
         for (std::size_t k = 0; k < points.size(); ++k) {
             const auto u = points(k, radiosity::hash_seed(seed, pixel));
-            sum += look(camera.ray(double(pixel % camera.width) + u[0],
+            sum += look(camera_ray(double(pixel % camera.width) + u[0],
                                    double(pixel / camera.width) + u[1]));
         }
         layer.values[pixel] = static_cast<float>(sum / double(points.size()));

@@ -1,0 +1,13 @@
+// Catch2 of either generation, and what most tests use of it.
+#pragma once
+
+#if __has_include(<catch2/catch_all.hpp>)
+#include <catch2/catch_all.hpp>
+using Catch::Approx;
+inline auto Contains(const std::string& text) {
+    return Catch::Matchers::ContainsSubstring(text);
+}
+#else
+#include <catch2/catch.hpp>
+using Catch::Matchers::Contains;
+#endif
