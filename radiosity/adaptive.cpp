@@ -86,6 +86,7 @@ class Loop {
         direct_.update();
         if (adaptive())
             note(direct_.refine(importance, direct_share * goal, limits(0.8), progress_));
+        direct_.sample_means();
         const LitPatches lit = leaf_light_.lit_patches();
         solve(coarse, &lit);
         end_pass("direct light");
@@ -122,11 +123,13 @@ class Loop {
             indirect.refine_zones(sources, importance, 0.5 * goal, limits(1.0), progress_);
         note(zones);
         direct_.update();
+        direct_.sample_means();
         leaf_light_.update_zones(indirect, sources.fields);
         note(indirect.refine_patches(sources, importance,
                                      goal - std::min(zones.squared_error, 0.5 * goal), limits(1.0),
                                      progress_));
         direct_.update();
+        direct_.sample_means();
     }
 
     bool adaptive() const { return options_.refinement >= Refinement::adaptive && !kept_.frozen; }

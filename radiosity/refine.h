@@ -4,6 +4,7 @@
 #include "radiosity/element_mesh.h"
 #include "radiosity/importance.h"
 #include "radiosity/progress.h"
+#include "radiosity/sampled_means.h"
 #include "radiosity/shadow_cuts.h"
 
 namespace tyndall::radiosity {
@@ -39,7 +40,10 @@ class DirectRefiner {
     RefineResult refine(const Importance& importance, double goal, const RefineLimits& limits,
                         const ProgressCallback& progress);
 
-    // Mean of H^A over a leaf by the degree-2 rule of corners and centroid.
+    // Gives means by many points to the leaves that are left with an error which the power of all
+    // direct light would feel. To be called where refinement ends.
+    void sample_means();
+    // Mean of H^A over a leaf: sampled, or by the degree-2 rule of corners and centroid.
     double mean(ZoneId zone, std::size_t band);
     double mean(PatchId patch, std::size_t band);
     // Error of what a leaf holds, from the departures at its edges' middles and centroid: as chords
@@ -60,11 +64,17 @@ class DirectRefiner {
     double collect(const Importance& importance, const RefineLimits& limits,
                    std::vector<Candidate>& candidates) const;
     void bisect(const Candidate& candidate, std::size_t max_leaves);
+    // What the larger of its own error and its jump is worth on a leaf.
+    template <class Node>
+    double worst_error(Node node) const {
+        return std::max(error(node), cuts_ ? cuts_->error(node) : 0.0);
+    }
 
     const Enclosure& enclosure_;
     ElementMesh& mesh_;
     const DirectLight& light_;
     std::optional<ShadowCuts> cuts_;
+    SampledMeans sampled_;
     std::size_t bands_;
     std::size_t zones_done_ = 0, patches_done_ = 0;       // entries of the mesh's lists
     std::vector<float> zone_error_, patch_error_;         // by node

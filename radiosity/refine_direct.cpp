@@ -42,11 +42,19 @@ constexpr double shortest_bisected = 0.35;
 // Of an element's error: a jump that makes up less is not what it has to be cut for.
 constexpr double least_jump = 0.3;
 
+// Of the power of direct light: a leaf whose error may be worth more has its mean sampled. Those
+// below are many and of either sign.
+constexpr double felt_power = 1e-5;
+
 }  // namespace
 
 DirectRefiner::DirectRefiner(const Enclosure& enclosure, ElementMesh& mesh,
                              const DirectLight& light, const ShadowBoundaries* boundaries)
-    : enclosure_(enclosure), mesh_(mesh), light_(light), bands_(enclosure.bands) {
+    : enclosure_(enclosure),
+      mesh_(mesh),
+      light_(light),
+      sampled_(enclosure, mesh.forest(), light),
+      bands_(enclosure.bands) {
     if (boundaries) cuts_.emplace(enclosure, *boundaries, mesh, light);
 }
 
@@ -221,13 +229,41 @@ RefineResult DirectRefiner::refine(const Importance& importance, double goal,
     }
 }
 
+void DirectRefiner::sample_means() {
+    const Forest& forest = mesh_.forest();
+    const auto capacity_of_zone = [&](ZoneId z) {
+        const auto& optics = enclosure_.media[medium_of(enclosure_, forest, z)];
+        return 4.0 * mean_over_bands(optics.extinction) * forest.volume(z);
+    };
+    double power = 0.0;  // of direct light on all leaves, over π
+    for (std::size_t b = 0; b < bands_; ++b) {
+        const double share = 1.0 / static_cast<double>(bands_);
+        for (const ZoneId z : mesh_.zones())
+            if (forest.is_leaf(z)) power += share * capacity_of_zone(z) * mean(z, b);
+        for (const PatchId p : mesh_.patches())
+            if (forest.is_leaf(p)) power += share * forest.area(p) * mean(p, b);
+    }
+    std::vector<ZoneId> zones;
+    for (const ZoneId z : mesh_.zones())
+        if (forest.is_leaf(z) && capacity_of_zone(z) * worst_error(z) > felt_power * power)
+            zones.push_back(z);
+    std::vector<PatchId> patches;
+    for (const PatchId p : mesh_.patches())
+        if (forest.is_leaf(p) && forest.area(p) * worst_error(p) > felt_power * power)
+            patches.push_back(p);
+    sampled_.add(zones);
+    sampled_.add(patches);
+}
+
 double DirectRefiner::mean(ZoneId zone, std::size_t band) {
+    if (const double* sampled = sampled_.of(zone)) return sampled[band];
     double sum = 0.0;
     for (const SampleId id : mesh_.lit_corners(zone)) sum += mesh_.samples().direct(id, band);
     return 0.05 * sum + 0.8 * zone_centroid_[zone.value * bands_ + band];
 }
 
 double DirectRefiner::mean(PatchId patch, std::size_t band) {
+    if (const double* sampled = sampled_.of(patch)) return sampled[band];
     double sum = 0.0;
     for (const SampleId id : mesh_.lit_corners(patch)) sum += mesh_.samples().direct(id, band);
     return sum / 12.0 + 0.75 * patch_centroid_[patch.value * bands_ + band];
