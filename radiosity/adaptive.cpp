@@ -28,9 +28,14 @@ constexpr double detail_factor = 4.0;
 // A mesh that is going to be promoted needs to be this much coarser than the next.
 constexpr double coarser_goal = 4.0;
 
+// Of max_elements: up to here zones of the coarse solution are bisected for their thickness. Rows
+// cost more than leaves.
+constexpr double thick_elements_share = 0.2;
+
 std::optional<ShadowBoundaries> shadow_boundaries(const Enclosure& enclosure,
                                                   const SolveOptions& options) {
-    if (options.refinement != Refinement::aligned) return {};
+    if (options.refinement != Refinement::aligned || !asks_for(options, "shadow_boundary"))
+        return {};
     return ShadowBoundaries(enclosure, options.direct_light == DirectLightMode::closed_form);
 }
 
@@ -59,6 +64,9 @@ class Loop {
     Solution run() {
         make_initial_mesh();
         Elements elements = start_elements(*enclosure_, mesh_.forest(), options_.start);
+        if (adaptive() && asks_for(options_, "optical_thickness") &&
+            options_.start != Start::single_zone && bisect_thick_zones(elements))
+            elements = elements_of_leaves(*enclosure_, mesh_.forest());
         for (std::size_t promotions = options_.promotions;; --promotions) {
             const double looser = std::pow(coarser_goal, promotions);
             Solution solution = turn(std::move(elements), looser, promotions == 0);
@@ -85,7 +93,8 @@ class Loop {
         if (last && kept_.begin_with) mesh_.replay(*kept_.begin_with);
         direct_.update();
         if (adaptive())
-            note(direct_.refine(importance, direct_share * goal, limits(0.8), progress_));
+            note(direct_.refine(importance, direct_share * goal, limits(0.8), progress_,
+                                {asks_for(options_, "direct"), other_indicators(coarse)}));
         direct_.sample_means();
         const LitPatches lit = leaf_light_.lit_patches();
         solve(coarse, &lit);
@@ -99,7 +108,9 @@ class Loop {
 
         IndirectRefiner indirect(*enclosure_, mesh_, coarse.elements(), options_.gather_rays,
                                  options_.seed);
-        gather(coarse, lit, importance, adaptive() ? indirect_share * goal : 1e300, indirect);
+        gather(coarse, lit, importance,
+               adaptive() && asks_for(options_, "indirect") ? indirect_share * goal : 1e300,
+               indirect);
         Solution solution = collect(
             coarse, [&](auto leaf, std::size_t b) { return indirect.field(leaf, b); },
             [&](auto leaf) { return indirect.error(leaf); });
@@ -143,6 +154,12 @@ class Loop {
         return detail_factor * std::sqrt(4.0 * M_PI / static_cast<double>(options_.gather_rays));
     }
 
+    // Those that look at what leaves send out as a whole.
+    std::function<IndicatedErrors()> other_indicators(const CoarseSolution& coarse);
+    bool bisect_thick_zones(const Elements& elements);
+    bool thick(ZoneId zone) const;
+    std::vector<std::pair<double, ZoneId>> thick_zones(const Importance& importance,
+                                                       const Fields& radiance) const;
     void make_initial_mesh();
     void solve(CoarseSolution& coarse, const LitPatches* lit = nullptr);
     void rate(const CoarseSolution& coarse);
@@ -195,6 +212,74 @@ void Loop::make_initial_mesh() {
     else if (options_.start != Start::uniform || options_.refinement == Refinement::none)
         return;
     mesh_.refine_to(size);
+}
+
+std::function<IndicatedErrors()> Loop::other_indicators(const CoarseSolution& coarse) {
+    std::vector<Indicator> asked;
+    if (asks_for(options_, "jump")) asked.push_back(jump_error);
+    if (options_.indicator) asked.push_back(options_.indicator);
+    if (asked.empty()) return {};
+    return [this, &coarse, asked] {
+        return indicated_errors(asked, *enclosure_, mesh_, leaf_light_.sources(coarse));
+    };
+}
+
+// A leaf of more optical depths than may be.
+bool Loop::thick(ZoneId zone) const {
+    const Forest& forest = mesh_.forest();
+    if (!forest.is_leaf(zone)) return false;
+    const auto& extinction = enclosure_->media[medium_of(*enclosure_, forest, zone)].extinction;
+    return *std::max_element(extinction.begin(), extinction.end()) *
+               std::cbrt(forest.volume(zone)) >
+           options_.optical_thickness;
+}
+
+// Shares of such zones, the largest first.
+std::vector<std::pair<double, ZoneId>> Loop::thick_zones(const Importance& importance,
+                                                         const Fields& radiance) const {
+    const Forest& forest = mesh_.forest();
+    std::vector<std::pair<double, ZoneId>> shares;
+    for (const ZoneId z : mesh_.zones()) {
+        if (!thick(z)) continue;
+        const double error = thickness_error({*enclosure_, mesh_, forest, radiance, z});
+        shares.emplace_back(importance.of(z) * error * error, z);
+    }
+    std::sort(shares.begin(), shares.end(), [](const auto& a, const auto& b) {
+        return a.first != b.first ? a.first > b.first : a.second < b.second;
+    });
+    return shares;
+}
+
+// Zones of the mesh that the coarse solution is made on, as a solution before it tells what their
+// thickness costs. Whether any has been bisected.
+bool Loop::bisect_thick_zones(const Elements& elements) {
+    const auto& leaves = mesh_.zones();
+    if (std::none_of(leaves.begin(), leaves.end(), [&](ZoneId z) { return thick(z); }))
+        return false;
+    CoarseSolution coarse(*enclosure_, mesh_.forest(), elements, options_, progress_);
+    rays_ += coarse.rays();
+    direct_.update();
+    solve(coarse);
+    rate(coarse);
+    const Importance importance(*enclosure_, mesh_.forest(), view_, scale_);
+    Fields radiance = leaf_light_.sources(coarse);
+    const std::size_t most = limits(thick_elements_share).max_elements, before = mesh_.leaf_count();
+    const double goal = options_.error * options_.error;
+    for (std::size_t found = 0; found != mesh_.leaf_count() && mesh_.leaf_count() < most;) {
+        found = mesh_.leaf_count();
+        extend(mesh_.forest(), radiance);
+        const auto candidates = thick_zones(importance, radiance);
+        double sum = 0.0;
+        for (const auto& [share, zone] : candidates) sum += share;
+        if (sum <= goal) break;
+        for (const auto& [share, zone] : candidates) {
+            if (share <= goal / static_cast<double>(found) || mesh_.leaf_count() >= most) break;
+            mesh_.bisect(zone, mesh_.forest().longest_edge(zone));
+        }
+    }
+    direct_.update();
+    end_pass("optical thickness");
+    return mesh_.leaf_count() > before;
 }
 
 // Direct light of the leaves summed into the coarse elements above them, then the linear system.
@@ -306,6 +391,7 @@ Solution solve_adaptively(std::shared_ptr<const Enclosure> enclosure, const Solv
     if (options.solver != "gmres")
         throw mesh::InputError(
             fmt::format("there is no solver \"{}\". Choose \"gmres\".", options.solver));
+    check_indicators(options);
     std::optional<tbb::global_control> threads;
     if (options.threads > 0)
         threads.emplace(tbb::global_control::max_allowed_parallelism, options.threads);

@@ -3,6 +3,7 @@
 
 #include "radiosity/element_mesh.h"
 #include "radiosity/importance.h"
+#include "radiosity/indicators.h"
 #include "radiosity/progress.h"
 #include "radiosity/sampled_means.h"
 #include "radiosity/shadow_cuts.h"
@@ -36,9 +37,15 @@ class DirectRefiner {
 
     // Evaluates what is new in the mesh.
     void update();
-    // Bisects until Σ weight (a error)² ≤ goal, or a limit.
+    // What leaves are bisected for, beside the jumps of `boundaries`.
+    struct Asked {
+        bool direct = true;                       // departures from linear
+        std::function<IndicatedErrors()> more{};  // of the leaves there are; empty: none
+    };
+    // Bisects until Σ share ≤ goal, or a limit; share = weight (a error)², or weight error² of the
+    // errors of `more`, which are those of what an element sends out. The largest counts.
     RefineResult refine(const Importance& importance, double goal, const RefineLimits& limits,
-                        const ProgressCallback& progress);
+                        const ProgressCallback& progress, const Asked& asked = {true, {}});
 
     // Gives means by many points to the leaves that are left with an error which the power of all
     // direct light would feel. To be called where refinement ends.
@@ -56,12 +63,13 @@ class DirectRefiner {
         double share;
         std::uint32_t index;
         bool is_zone;
-        bool to_cut;  // along a shadow's edge
+        bool to_cut;        // along a shadow's edge
+        bool longest_edge;  // not that of the largest departure
     };
     template <class Node>
     void measure(Node node, std::vector<float>& errors, std::vector<std::uint8_t>& edges,
                  const std::vector<double>& centroid);
-    double collect(const Importance& importance, const RefineLimits& limits,
+    double collect(const Importance& importance, const RefineLimits& limits, const Asked& asked,
                    std::vector<Candidate>& candidates) const;
     void bisect(const Candidate& candidate, std::size_t max_leaves);
     // What the larger of its own error and its jump is worth on a leaf.

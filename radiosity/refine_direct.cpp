@@ -150,18 +150,28 @@ void DirectRefiner::update() {
 
 // The squared error that remains, and the elements that share in it.
 double DirectRefiner::collect(const Importance& importance, const RefineLimits& limits,
-                              std::vector<Candidate>& candidates) const {
+                              const Asked& asked, std::vector<Candidate>& candidates) const {
     const Forest& forest = mesh_.forest();
+    const IndicatedErrors more = asked.more ? asked.more() : IndicatedErrors{};
     candidates.clear();
     double sum = 0.0;
-    const auto add = [&](auto node, double error, double jump, double scatter, double weight) {
+    const auto add = [&](auto node, double departure, double jump, double scatter, double weight) {
+        constexpr bool is_zone = std::is_same_v<decltype(node), ZoneId>;
+        const double error = asked.direct ? departure : 0.0;
         const double worst = std::max(error, jump);
-        const double share = weight * scatter * scatter * worst * worst;
+        double share = weight * scatter * scatter * worst * worst;
+        bool longest_edge = false;
+        if (asked.more) {
+            const double other = is_zone ? more.zone[node.value] : more.patch[node.value];
+            const double other_share = importance.of(node) * other * other;
+            longest_edge = other_share > share;
+            share = std::max(share, other_share);
+        }
         if (share == 0.0) return;
         sum += share;
         if (forest[node].longest_edge > limits.smallest_edge)
-            candidates.push_back({share, node.value, std::is_same_v<decltype(node), ZoneId>,
-                                  jump > least_jump * worst});
+            candidates.push_back({share, node.value, is_zone,
+                                  !longest_edge && jump > least_jump * worst, longest_edge});
     };
     for (const ZoneId z : mesh_.zones())
         if (forest.is_leaf(z)) {
@@ -183,7 +193,8 @@ void DirectRefiner::bisect(const Candidate& candidate, std::size_t max_leaves) {
         const ZoneId zone(candidate.index);
         if (candidate.to_cut && cuts_->cut(zone, max_leaves)) return;
         const auto edge = zone_edge_[zone.value];
-        mesh_.bisect(zone, {edge / 4, edge % 4});
+        mesh_.bisect(zone, candidate.longest_edge ? mesh_.forest().longest_edge(zone)
+                                                  : std::array<int, 2>{edge / 4, edge % 4});
     } else if (const PatchId patch(candidate.index); mesh_.forest().is_leaf(patch)) {
         if (candidate.to_cut && cuts_->cut(patch, max_leaves)) return;
         mesh_.bisect(patch);
@@ -191,13 +202,14 @@ void DirectRefiner::bisect(const Candidate& candidate, std::size_t max_leaves) {
 }
 
 RefineResult DirectRefiner::refine(const Importance& importance, double goal,
-                                   const RefineLimits& limits, const ProgressCallback& progress) {
+                                   const RefineLimits& limits, const ProgressCallback& progress,
+                                   const Asked& asked) {
     RefineResult result;
     std::vector<Candidate> candidates;
     double first = 0.0;
     for (;;) {
         update();
-        result.squared_error = collect(importance, limits, candidates);
+        result.squared_error = collect(importance, limits, asked, candidates);
         if (first == 0.0) first = result.squared_error;
         const double gone = first > goal && result.squared_error > 0.0
                                 ? std::log(first / result.squared_error) / std::log(first / goal)
