@@ -12,6 +12,7 @@
 #include "radiosity/resources.h"
 #include "radiosity/solve_report.h"
 #include "radiosity/start_elements.h"
+#include "radiosity/thick_zones.h"
 
 namespace tyndall::radiosity {
 namespace {
@@ -65,7 +66,7 @@ class Loop {
         make_initial_mesh();
         Elements elements = start_elements(*enclosure_, mesh_.forest(), options_.start);
         if (adaptive() && asks_for(options_, "optical_thickness") &&
-            options_.start != Start::single_zone && bisect_thick_zones(elements))
+            options_.start != Start::single_zone && refine_thick_zones(elements))
             elements = elements_of_leaves(*enclosure_, mesh_.forest());
         for (std::size_t promotions = options_.promotions;; --promotions) {
             const double looser = std::pow(coarser_goal, promotions);
@@ -156,10 +157,7 @@ class Loop {
 
     // Those that look at what leaves send out as a whole.
     std::function<IndicatedErrors()> other_indicators(const CoarseSolution& coarse);
-    bool bisect_thick_zones(const Elements& elements);
-    bool thick(ZoneId zone) const;
-    std::vector<std::pair<double, ZoneId>> thick_zones(const Importance& importance,
-                                                       const Fields& radiance) const;
+    bool refine_thick_zones(const Elements& elements);
     void make_initial_mesh();
     void solve(CoarseSolution& coarse, const LitPatches* lit = nullptr);
     void rate(const CoarseSolution& coarse);
@@ -224,59 +222,20 @@ std::function<IndicatedErrors()> Loop::other_indicators(const CoarseSolution& co
     };
 }
 
-// A leaf of more optical depths than may be.
-bool Loop::thick(ZoneId zone) const {
-    const Forest& forest = mesh_.forest();
-    if (!forest.is_leaf(zone)) return false;
-    const auto& extinction = enclosure_->media[medium_of(*enclosure_, forest, zone)].extinction;
-    return *std::max_element(extinction.begin(), extinction.end()) *
-               std::cbrt(forest.volume(zone)) >
-           options_.optical_thickness;
-}
-
-// Shares of such zones, the largest first.
-std::vector<std::pair<double, ZoneId>> Loop::thick_zones(const Importance& importance,
-                                                         const Fields& radiance) const {
-    const Forest& forest = mesh_.forest();
-    std::vector<std::pair<double, ZoneId>> shares;
-    for (const ZoneId z : mesh_.zones()) {
-        if (!thick(z)) continue;
-        const double error = thickness_error({*enclosure_, mesh_, forest, radiance, z});
-        shares.emplace_back(importance.of(z) * error * error, z);
-    }
-    std::sort(shares.begin(), shares.end(), [](const auto& a, const auto& b) {
-        return a.first != b.first ? a.first > b.first : a.second < b.second;
-    });
-    return shares;
-}
-
 // Zones of the mesh that the coarse solution is made on, as a solution before it tells what their
 // thickness costs. Whether any has been bisected.
-bool Loop::bisect_thick_zones(const Elements& elements) {
-    const auto& leaves = mesh_.zones();
-    if (std::none_of(leaves.begin(), leaves.end(), [&](ZoneId z) { return thick(z); }))
-        return false;
+bool Loop::refine_thick_zones(const Elements& elements) {
+    if (!any_thick(*enclosure_, mesh_, options_.optical_thickness)) return false;
     CoarseSolution coarse(*enclosure_, mesh_.forest(), elements, options_, progress_);
     rays_ += coarse.rays();
     direct_.update();
     solve(coarse);
     rate(coarse);
-    const Importance importance(*enclosure_, mesh_.forest(), view_, scale_);
-    Fields radiance = leaf_light_.sources(coarse);
-    const std::size_t most = limits(thick_elements_share).max_elements, before = mesh_.leaf_count();
-    const double goal = options_.error * options_.error;
-    for (std::size_t found = 0; found != mesh_.leaf_count() && mesh_.leaf_count() < most;) {
-        found = mesh_.leaf_count();
-        extend(mesh_.forest(), radiance);
-        const auto candidates = thick_zones(importance, radiance);
-        double sum = 0.0;
-        for (const auto& [share, zone] : candidates) sum += share;
-        if (sum <= goal) break;
-        for (const auto& [share, zone] : candidates) {
-            if (share <= goal / static_cast<double>(found) || mesh_.leaf_count() >= most) break;
-            mesh_.bisect(zone, mesh_.forest().longest_edge(zone));
-        }
-    }
+    const std::size_t before = mesh_.leaf_count();
+    bisect_thick_zones(*enclosure_, mesh_, {*enclosure_, mesh_.forest(), view_, scale_},
+                       leaf_light_.sources(coarse),
+                       {options_.optical_thickness, options_.error * options_.error,
+                        limits(thick_elements_share).max_elements});
     direct_.update();
     end_pass("optical thickness");
     return mesh_.leaf_count() > before;
