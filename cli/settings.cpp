@@ -6,6 +6,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "radiosity/indicators.h"
+
 namespace tyndall::cli {
 namespace {
 
@@ -17,6 +19,12 @@ constexpr std::array<std::string_view, 4> start_names{"single-zone", "base", "un
 constexpr std::array<std::string_view, 2> radiance_names{"constant", "linear"};
 constexpr std::array<std::string_view, 2> direct_light_names{"closed_form", "rows"};
 constexpr std::array<std::string_view, 1> render_method_names{"line_of_sight"};
+
+std::vector<std::string_view> indicator_names() {
+    std::vector<std::string_view> names;
+    for (const auto& indicator : radiosity::indicators()) names.push_back(indicator.name);
+    return names;
+}
 
 std::size_t memory(const TableReader& table, std::string_view key) {
     constexpr Range range{1e6, 1e15};
@@ -54,6 +62,10 @@ constexpr Setting solve_settings[] = {
      [](T t, K k, Settings& s) { s.mesh = t.text(k); }},
     {{"refinement", "\"none\", \"uniform\", \"adaptive\", \"view\" or \"aligned\"", "\"aligned\"", "the initial mesh; all down to element_size; where it is needed; where the picture needs it; along shadow boundaries too"},
      [](T t, K k, Settings& s) { s.solve.refinement = static_cast<radiosity::Refinement>(t.choice(k, refinement_names)); }},
+    {{"indicators", "array of \"direct\", \"shadow_boundary\", \"indirect\", \"jump\", \"optical_thickness\"", "[\"direct\", \"shadow_boundary\", \"indirect\"]", "the errors that elements are bisected for: direct light that departs from linear; a shadow's edge across (with refinement \"aligned\"); indirect light that departs from linear; a jump to the neighbours; zones too thick for the coarse solution"},
+     [](T t, K k, Settings& s) { s.solve.indicators = t.choices(k, indicator_names()); }},
+    {{"optical_thickness", "number above 0", "0.5", "extinction × size from which a zone counts as thick"},
+     [](T t, K k, Settings& s) { s.solve.optical_thickness = t.number(k, positive); }},
     {{"promotions", "whole number", "0", "times the refined mesh, at a looser goal, is solved anew before the last refinement"},
      [](T t, K k, Settings& s) { s.solve.promotions = t.count(k, 0, 10); }},
     {{"radiance", "\"constant\" or \"linear\"", "\"linear\"", "what an element holds: its mean, or a linear function with that mean"},

@@ -173,18 +173,33 @@ std::string TableReader::text(std::string_view key) const {
     return *value;
 }
 
-std::size_t TableReader::choice(std::string_view key,
-                                std::span<const std::string_view> names) const {
-    const std::string value = text(key);
-    const auto found = std::find(names.begin(), names.end(), value);
+std::size_t TableReader::choice_at(const toml::node& node, const std::string& what,
+                                   std::span<const std::string_view> names) const {
+    const auto value = node.value_exact<std::string>();
+    if (!value) fail_type(node, what, "a string");
+    const auto found = std::find(names.begin(), names.end(), *value);
     if (found == names.end()) {
-        const auto near = nearest(value, names);
-        fail(key,
-             fmt::format("{} is \"{}\", which is not one of: {}. {}", what(key), value,
-                         list_of(names, "or"),
-                         near ? fmt::format("Did you mean \"{}\"?", *near) : "Give one of them."));
+        const auto near = nearest(*value, names);
+        fail_at(place_of(node.source()),
+                fmt::format(
+                    "{} is \"{}\", which is not one of: {}. {}", what, *value, list_of(names, "or"),
+                    near ? fmt::format("Did you mean \"{}\"?", *near) : "Give one of them."));
     }
     return static_cast<std::size_t>(found - names.begin());
+}
+
+std::size_t TableReader::choice(std::string_view key,
+                                std::span<const std::string_view> names) const {
+    return choice_at(node(key), what(key), names);
+}
+
+std::vector<std::string> TableReader::choices(std::string_view key,
+                                              std::span<const std::string_view> names) const {
+    std::vector<std::string> result;
+    const std::string each = "an element of " + what(key);
+    for (const toml::node& value : array(key))
+        result.emplace_back(names[choice_at(value, each, names)]);
+    return result;
 }
 
 std::vector<double> TableReader::numbers_at(const toml::node& node, std::string_view key,

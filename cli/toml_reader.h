@@ -77,6 +77,9 @@ class TableReader {
     std::string text(std::string_view key) const;
     // The index of the text among `names`.
     std::size_t choice(std::string_view key, std::span<const std::string_view> names) const;
+    // The names in an array, each one of `names`.
+    std::vector<std::string> choices(std::string_view key,
+                                     std::span<const std::string_view> names) const;
     glm::dvec3 vector(std::string_view key, const Range& range) const;
     glm::dvec2 vector2(std::string_view key, const Range& range) const;
     // One value a band, from one number or an array of `bands`.
@@ -96,6 +99,8 @@ class TableReader {
     glm::dvec3 vector_at(const toml::node& node, const std::string& what, const Range& range) const;
 
   private:
+    std::size_t choice_at(const toml::node& node, const std::string& what,
+                          std::span<const std::string_view> names) const;
     std::string what(std::string_view key) const;  // "reflectance of material \"plaster\""
     std::vector<double> numbers_at(const toml::node& node, std::string_view key, std::size_t size,
                                    const Range& range) const;

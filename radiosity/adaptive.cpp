@@ -12,6 +12,7 @@
 #include "radiosity/resources.h"
 #include "radiosity/solve_report.h"
 #include "radiosity/start_elements.h"
+#include "radiosity/thick_zones.h"
 
 namespace tyndall::radiosity {
 namespace {
@@ -28,9 +29,14 @@ constexpr double detail_factor = 4.0;
 // A mesh that is going to be promoted needs to be this much coarser than the next.
 constexpr double coarser_goal = 4.0;
 
+// Of max_elements: up to here zones of the coarse solution are bisected for their thickness. Rows
+// cost more than leaves.
+constexpr double thick_elements_share = 0.2;
+
 std::optional<ShadowBoundaries> shadow_boundaries(const Enclosure& enclosure,
                                                   const SolveOptions& options) {
-    if (options.refinement != Refinement::aligned) return {};
+    if (options.refinement != Refinement::aligned || !asks_for(options, "shadow_boundary"))
+        return {};
     return ShadowBoundaries(enclosure, options.direct_light == DirectLightMode::closed_form);
 }
 
@@ -68,6 +74,9 @@ class Loop {
     Solution run() {
         make_initial_mesh();
         Elements elements = start_elements(*enclosure_, mesh_.forest(), options_.start);
+        if (adaptive() && asks_for(options_, "optical_thickness") &&
+            options_.start != Start::single_zone && refine_thick_zones(elements))
+            elements = elements_of_leaves(*enclosure_, mesh_.forest());
         for (std::size_t promotions = options_.promotions;; --promotions) {
             const double looser = std::pow(coarser_goal, promotions);
             Solution solution = turn(std::move(elements), looser, promotions == 0);
@@ -94,7 +103,9 @@ class Loop {
         if (last && kept_.begin_with) mesh_.replay(kept_.begin_with->forest);
         direct_.update();
         if (adaptive())
-            note(direct_.refine(importance, direct_share * goal, limits(0.8), progress_));
+            note(direct_.refine(importance, direct_share * goal, limits(0.8), progress_,
+                                {asks_for(options_, "direct"), other_indicators(coarse)}));
+        direct_.sample_means();
         const LitPatches lit = leaf_light_.lit_patches();
         solve(coarse, &lit);
         end_pass("direct light");
@@ -107,7 +118,9 @@ class Loop {
 
         IndirectRefiner indirect(*enclosure_, mesh_, coarse.elements(), options_.gather_rays,
                                  options_.seed);
-        gather(coarse, lit, importance, adaptive() ? indirect_share * goal : 1e300, indirect);
+        gather(coarse, lit, importance,
+               adaptive() && asks_for(options_, "indirect") ? indirect_share * goal : 1e300,
+               indirect);
         Solution solution = collect(
             coarse, [&](auto leaf, std::size_t b) { return indirect.field(leaf, b); },
             [&](auto leaf) { return indirect.error(leaf); });
@@ -131,11 +144,13 @@ class Loop {
             indirect.refine_zones(sources, importance, 0.5 * goal, limits(1.0), progress_);
         note(zones);
         direct_.update();
+        direct_.sample_means();
         leaf_light_.update_zones(indirect, sources.fields);
         note(indirect.refine_patches(sources, importance,
                                      goal - std::min(zones.squared_error, 0.5 * goal), limits(1.0),
                                      progress_));
         direct_.update();
+        direct_.sample_means();
     }
 
     // Before the last turn the mesh to begin with is not in yet: what there is, is coarser.
@@ -151,6 +166,9 @@ class Loop {
         return detail_factor * std::sqrt(4.0 * M_PI / static_cast<double>(options_.gather_rays));
     }
 
+    // Those that look at what leaves send out as a whole.
+    std::function<IndicatedErrors()> other_indicators(const CoarseSolution& coarse);
+    bool refine_thick_zones(const Elements& elements);
     void make_initial_mesh();
     void solve(CoarseSolution& coarse, const LitPatches* lit = nullptr);
     void rate(const CoarseSolution& coarse);
@@ -203,6 +221,35 @@ void Loop::make_initial_mesh() {
     else if (options_.start != Start::uniform || options_.refinement == Refinement::none)
         return;
     mesh_.refine_to(size);
+}
+
+std::function<IndicatedErrors()> Loop::other_indicators(const CoarseSolution& coarse) {
+    std::vector<Indicator> asked;
+    if (asks_for(options_, "jump")) asked.push_back(jump_error);
+    if (options_.indicator) asked.push_back(options_.indicator);
+    if (asked.empty()) return {};
+    return [this, &coarse, asked] {
+        return indicated_errors(asked, *enclosure_, mesh_, leaf_light_.sources(coarse));
+    };
+}
+
+// Zones of the mesh that the coarse solution is made on, as a solution before it tells what their
+// thickness costs. Whether any has been bisected.
+bool Loop::refine_thick_zones(const Elements& elements) {
+    if (!any_thick(*enclosure_, mesh_, options_.optical_thickness)) return false;
+    CoarseSolution coarse(*enclosure_, mesh_.forest(), elements, options_, progress_);
+    rays_ += coarse.rays();
+    direct_.update();
+    solve(coarse);
+    rate(coarse);
+    const std::size_t before = mesh_.leaf_count();
+    bisect_thick_zones(*enclosure_, mesh_, {*enclosure_, mesh_.forest(), view_, scale_},
+                       leaf_light_.sources(coarse),
+                       {options_.optical_thickness, options_.error * options_.error,
+                        limits(thick_elements_share).max_elements});
+    direct_.update();
+    end_pass("optical thickness");
+    return mesh_.leaf_count() > before;
 }
 
 // Direct light of the leaves summed into the coarse elements above them, then the linear system.
@@ -314,6 +361,7 @@ Solution solve_adaptively(std::shared_ptr<const Enclosure> enclosure, const Solv
     if (options.solver != "gmres")
         throw mesh::InputError(
             fmt::format("there is no solver \"{}\". Choose \"gmres\".", options.solver));
+    check_indicators(options);
     if (passes.begin_with) check_base(*enclosure, passes.begin_with->base);
     std::optional<tbb::global_control> threads;
     if (options.threads > 0)

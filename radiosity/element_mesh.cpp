@@ -66,6 +66,20 @@ void ElementMesh::mark(VertexId vertex, std::uint32_t plane_index, const ShadowP
     mark_planes_.try_emplace(plane_index, plane);
 }
 
+bool ElementMesh::on_one_shadow(std::span<const VertexId> vertices) const {
+    const auto marked = [&](VertexId vertex, std::uint32_t mark) {
+        const auto marks = marks_.find(vertex.value);
+        return marks != marks_.end() &&
+               std::find(marks->second.begin(), marks->second.end(), mark) != marks->second.end();
+    };
+    const auto first = marks_.find(vertices.front().value);
+    return first != marks_.end() &&
+           std::any_of(first->second.begin(), first->second.end(), [&](std::uint32_t mark) {
+               return std::all_of(vertices.begin(), vertices.end(),
+                                  [&](VertexId v) { return marked(v, mark); });
+           });
+}
+
 SampleId ElementMesh::sample(ZoneId zone, VertexId vertex, std::uint32_t sides, Point x) {
     const TetId tet = forest_.base_tet(zone);
     return sides == 0 ? samples_.in_zone(vertex, tet) : samples_.in_zone(vertex, tet, sides, x);

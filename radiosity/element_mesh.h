@@ -34,6 +34,13 @@ class ElementMesh {
     // Direct light jumps at a vertex across a plane: from now on elements on either side have
     // samples of their own there.
     void mark(VertexId vertex, std::uint32_t plane_index, const ShadowPlane& plane);
+    // Whether all these vertices lie on one such plane: what elements hold may differ across it.
+    bool on_one_shadow(std::span<const VertexId> vertices) const;
+    // The leaves across the edges of a patch, opposite its corners, on its surface side; none at a
+    // border.
+    std::array<PatchId, 3> neighbours(PatchId patch) const {
+        return surfaces_.neighbours(forest_, patch);
+    }
     // Samples of direct light at the corners, and at the middle of the edge between corners i and
     // j: on the element's own side of marked planes.
     std::array<SampleId, 4> lit_corners(ZoneId zone) { return lit_corners_of<4>(zone); }

@@ -3,8 +3,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "mesh/types.h"
 
@@ -40,12 +42,20 @@ enum class Radiance {
     linear,    // a linear function with that mean
 };
 
+// An error of an element that is judged, see indicators.h [W/m^2/sr].
+struct JudgedElement;
+using Indicator = std::function<double(const JudgedElement&)>;
+
 struct SolveOptions {
     double error = 0.01;  // goal: estimated relative error of the picture, or of the solution [-]
     std::string exchange = "walked";  // method for exchange areas
     std::string solver = "gmres";     // method for the linear system
     Start start = Start::uniform;
     Refinement refinement = Refinement::aligned;
+    // By which errors leaves are bisected, by name (indicators.h), from Refinement::adaptive on.
+    std::vector<std::string> indicators{"direct", "shadow_boundary", "indirect"};
+    Indicator indicator{};  // the caller's own, beside those; called in the order of leaves
+    double optical_thickness = 0.5;  // extinction × size: coarse zones below are thin enough [-]
     Radiance radiance = Radiance::linear;
     DirectLightMode direct_light = DirectLightMode::closed_form;
     double element_size = 0.0;  // longest edge of the first elements [m]; 0: chosen from the scene

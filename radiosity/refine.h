@@ -3,7 +3,9 @@
 
 #include "radiosity/element_mesh.h"
 #include "radiosity/importance.h"
+#include "radiosity/indicators.h"
 #include "radiosity/progress.h"
+#include "radiosity/sampled_means.h"
 #include "radiosity/shadow_cuts.h"
 
 namespace tyndall::radiosity {
@@ -35,11 +37,20 @@ class DirectRefiner {
 
     // Evaluates what is new in the mesh.
     void update();
-    // Bisects until Σ weight (a error)² ≤ goal, or a limit.
+    // What leaves are bisected for, beside the jumps of `boundaries`.
+    struct Asked {
+        bool direct = true;                       // departures from linear
+        std::function<IndicatedErrors()> more{};  // of the leaves there are; empty: none
+    };
+    // Bisects until Σ share ≤ goal, or a limit; share = weight (a error)², or weight error² of the
+    // errors of `more`, which are those of what an element sends out. The largest counts.
     RefineResult refine(const Importance& importance, double goal, const RefineLimits& limits,
-                        const ProgressCallback& progress);
+                        const ProgressCallback& progress, const Asked& asked = {true, {}});
 
-    // Mean of H^A over a leaf by the degree-2 rule of corners and centroid.
+    // Gives means by many points to the leaves that are left with an error which the power of all
+    // direct light would feel. To be called where refinement ends.
+    void sample_means();
+    // Mean of H^A over a leaf: sampled, or by the degree-2 rule of corners and centroid.
     double mean(ZoneId zone, std::size_t band);
     double mean(PatchId patch, std::size_t band);
     // Error of what a leaf holds, from the departures at its edges' middles and centroid: as chords
@@ -52,19 +63,26 @@ class DirectRefiner {
         double share;
         std::uint32_t index;
         bool is_zone;
-        bool to_cut;  // along a shadow's edge
+        bool to_cut;        // along a shadow's edge
+        bool longest_edge;  // not that of the largest departure
     };
     template <class Node>
     void measure(Node node, std::vector<float>& errors, std::vector<std::uint8_t>& edges,
                  const std::vector<double>& centroid);
-    double collect(const Importance& importance, const RefineLimits& limits,
+    double collect(const Importance& importance, const RefineLimits& limits, const Asked& asked,
                    std::vector<Candidate>& candidates) const;
     void bisect(const Candidate& candidate, std::size_t max_leaves);
+    // What the larger of its own error and its jump is worth on a leaf.
+    template <class Node>
+    double worst_error(Node node) const {
+        return std::max(error(node), cuts_ ? cuts_->error(node) : 0.0);
+    }
 
     const Enclosure& enclosure_;
     ElementMesh& mesh_;
     const DirectLight& light_;
     std::optional<ShadowCuts> cuts_;
+    SampledMeans sampled_;
     std::size_t bands_;
     std::size_t zones_done_ = 0, patches_done_ = 0;       // entries of the mesh's lists
     std::vector<float> zone_error_, patch_error_;         // by node

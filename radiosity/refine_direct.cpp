@@ -42,11 +42,19 @@ constexpr double shortest_bisected = 0.35;
 // Of an element's error: a jump that makes up less is not what it has to be cut for.
 constexpr double least_jump = 0.3;
 
+// Of the power of direct light: a leaf whose error may be worth more has its mean sampled. Those
+// below are many and of either sign.
+constexpr double felt_power = 1e-5;
+
 }  // namespace
 
 DirectRefiner::DirectRefiner(const Enclosure& enclosure, ElementMesh& mesh,
                              const DirectLight& light, const ShadowBoundaries* boundaries)
-    : enclosure_(enclosure), mesh_(mesh), light_(light), bands_(enclosure.bands) {
+    : enclosure_(enclosure),
+      mesh_(mesh),
+      light_(light),
+      sampled_(enclosure, mesh.forest(), light),
+      bands_(enclosure.bands) {
     if (boundaries) cuts_.emplace(enclosure, *boundaries, mesh, light);
 }
 
@@ -142,18 +150,28 @@ void DirectRefiner::update() {
 
 // The squared error that remains, and the elements that share in it.
 double DirectRefiner::collect(const Importance& importance, const RefineLimits& limits,
-                              std::vector<Candidate>& candidates) const {
+                              const Asked& asked, std::vector<Candidate>& candidates) const {
     const Forest& forest = mesh_.forest();
+    const IndicatedErrors more = asked.more ? asked.more() : IndicatedErrors{};
     candidates.clear();
     double sum = 0.0;
-    const auto add = [&](auto node, double error, double jump, double scatter, double weight) {
+    const auto add = [&](auto node, double departure, double jump, double scatter, double weight) {
+        constexpr bool is_zone = std::is_same_v<decltype(node), ZoneId>;
+        const double error = asked.direct ? departure : 0.0;
         const double worst = std::max(error, jump);
-        const double share = weight * scatter * scatter * worst * worst;
+        double share = weight * scatter * scatter * worst * worst;
+        bool longest_edge = false;
+        if (asked.more) {
+            const double other = is_zone ? more.zone[node.value] : more.patch[node.value];
+            const double other_share = importance.of(node) * other * other;
+            longest_edge = other_share > share;
+            share = std::max(share, other_share);
+        }
         if (share == 0.0) return;
         sum += share;
         if (forest[node].longest_edge > limits.smallest_edge)
-            candidates.push_back({share, node.value, std::is_same_v<decltype(node), ZoneId>,
-                                  jump > least_jump * worst});
+            candidates.push_back({share, node.value, is_zone,
+                                  !longest_edge && jump > least_jump * worst, longest_edge});
     };
     for (const ZoneId z : mesh_.zones())
         if (forest.is_leaf(z)) {
@@ -175,7 +193,8 @@ void DirectRefiner::bisect(const Candidate& candidate, std::size_t max_leaves) {
         const ZoneId zone(candidate.index);
         if (candidate.to_cut && cuts_->cut(zone, max_leaves)) return;
         const auto edge = zone_edge_[zone.value];
-        mesh_.bisect(zone, {edge / 4, edge % 4});
+        mesh_.bisect(zone, candidate.longest_edge ? mesh_.forest().longest_edge(zone)
+                                                  : std::array<int, 2>{edge / 4, edge % 4});
     } else if (const PatchId patch(candidate.index); mesh_.forest().is_leaf(patch)) {
         if (candidate.to_cut && cuts_->cut(patch, max_leaves)) return;
         mesh_.bisect(patch);
@@ -183,13 +202,14 @@ void DirectRefiner::bisect(const Candidate& candidate, std::size_t max_leaves) {
 }
 
 RefineResult DirectRefiner::refine(const Importance& importance, double goal,
-                                   const RefineLimits& limits, const ProgressCallback& progress) {
+                                   const RefineLimits& limits, const ProgressCallback& progress,
+                                   const Asked& asked) {
     RefineResult result;
     std::vector<Candidate> candidates;
     double first = 0.0;
     for (;;) {
         update();
-        result.squared_error = collect(importance, limits, candidates);
+        result.squared_error = collect(importance, limits, asked, candidates);
         if (first == 0.0) first = result.squared_error;
         const double gone = first > goal && result.squared_error > 0.0
                                 ? std::log(first / result.squared_error) / std::log(first / goal)
@@ -221,13 +241,41 @@ RefineResult DirectRefiner::refine(const Importance& importance, double goal,
     }
 }
 
+void DirectRefiner::sample_means() {
+    const Forest& forest = mesh_.forest();
+    const auto capacity_of_zone = [&](ZoneId z) {
+        const auto& optics = enclosure_.media[medium_of(enclosure_, forest, z)];
+        return 4.0 * mean_over_bands(optics.extinction) * forest.volume(z);
+    };
+    double power = 0.0;  // of direct light on all leaves, over π
+    for (std::size_t b = 0; b < bands_; ++b) {
+        const double share = 1.0 / static_cast<double>(bands_);
+        for (const ZoneId z : mesh_.zones())
+            if (forest.is_leaf(z)) power += share * capacity_of_zone(z) * mean(z, b);
+        for (const PatchId p : mesh_.patches())
+            if (forest.is_leaf(p)) power += share * forest.area(p) * mean(p, b);
+    }
+    std::vector<ZoneId> zones;
+    for (const ZoneId z : mesh_.zones())
+        if (forest.is_leaf(z) && capacity_of_zone(z) * worst_error(z) > felt_power * power)
+            zones.push_back(z);
+    std::vector<PatchId> patches;
+    for (const PatchId p : mesh_.patches())
+        if (forest.is_leaf(p) && forest.area(p) * worst_error(p) > felt_power * power)
+            patches.push_back(p);
+    sampled_.add(zones);
+    sampled_.add(patches);
+}
+
 double DirectRefiner::mean(ZoneId zone, std::size_t band) {
+    if (const double* sampled = sampled_.of(zone)) return sampled[band];
     double sum = 0.0;
     for (const SampleId id : mesh_.lit_corners(zone)) sum += mesh_.samples().direct(id, band);
     return 0.05 * sum + 0.8 * zone_centroid_[zone.value * bands_ + band];
 }
 
 double DirectRefiner::mean(PatchId patch, std::size_t band) {
+    if (const double* sampled = sampled_.of(patch)) return sampled[band];
     double sum = 0.0;
     for (const SampleId id : mesh_.lit_corners(patch)) sum += mesh_.samples().direct(id, band);
     return sum / 12.0 + 0.75 * patch_centroid_[patch.value * bands_ + band];

@@ -307,6 +307,12 @@ TEST_CASE("A broken --set is refused, with itself as the place") {
         {"camera.main.width=320", "the file has no camera"},
         {"surface.room.room.min=[0, 0]", "min of room of surface \"room\" has 2 values"},
         {"bands=0", "bands 0 of the scene is outside 1 to 64"},
+        {"solve.indicators=[\"jmup\"]",
+         "an element of indicators of [solve] is \"jmup\", which is not one of: direct, "
+         "shadow_boundary, indirect, jump or optical_thickness. Did you mean \"jump\"?"},
+        {"solve.indicators=[1]", "an element of indicators of [solve] is an integer (1)"},
+        {"solve.indicators=direct", "indicators of [solve] is a string (\"direct\")"},
+        {"solve.optical_thickness=0", "optical_thickness 0 of [solve] is not a value above 0"},
     };
     for (const Case& c : cases) {
         const std::string message = message_of(text, {c.override});
@@ -314,6 +320,23 @@ TEST_CASE("A broken --set is refused, with itself as the place") {
         CHECK(message.rfind("--set " + c.override + ": ", 0) == 0);
         CHECK(holds(message, c.part));
     }
+}
+
+TEST_CASE("Indicators are chosen by name, from the file or by --set") {
+    const std::string text = "format = 1\n" + material + room;
+    CHECK(read(text).solve.indicators ==
+          std::vector<std::string>{"direct", "shadow_boundary", "indirect"});
+    const auto file = read(text, {"solve.indicators=[\"jump\", \"optical_thickness\"]",
+                                  "solve.optical_thickness=0.25"});
+    CHECK(file.solve.indicators == std::vector<std::string>{"jump", "optical_thickness"});
+    CHECK(file.solve.optical_thickness == 0.25);
+    CHECK(read(text, {"solve.indicators=[]"}).solve.indicators.empty());
+    // The place is that of the name within the array.
+    const std::string message =
+        message_of(text + "[solve]\nindicators = [\"direct\", \"shadow\"]\n");
+    INFO(message);
+    CHECK(holds(message, ":25: an element of indicators"));
+    CHECK(holds(message, "Did you mean \"shadow_boundary\"?"));
 }
 
 TEST_CASE("The reference of keys has every table and no empty type") {
