@@ -38,6 +38,18 @@ void warn_of_thick_zones(const Enclosure& enclosure, const CoarseSolution& coars
                                             enclosure.media[medium].extinction.end())));
 }
 
+// Refinement makes elements smaller; it cannot mend what rays leave.
+void warn_of_noise(const ErrorParts& error, const SolveOptions& options, Report& report) {
+    if (options.refinement < Refinement::adaptive || error.total() <= options.error) return;
+    const double noise = std::hypot(error.gathers, error.coarse);
+    if (noise < error.elements) return;
+    report.warnings.push_back(fmt::format(
+        "the error goal of {} is not met, and smaller elements would not help: the last gathers' "
+        "noise is {:.2g} % (raise solve.gather_rays), the coarse solution's error {:.2g} % (raise "
+        "solve.rays, or lower solve.element_size).",
+        options.error, 100.0 * error.gathers, 100.0 * error.coarse));
+}
+
 }  // namespace
 
 Report solve_report(const Enclosure& enclosure, const CoarseSolution& coarse,
@@ -48,7 +60,11 @@ Report solve_report(const Enclosure& enclosure, const CoarseSolution& coarse,
     report.solver = coarse.report();
     report.stopped = ending.stopped;
     report.lost_rays = coarse.lost_rays();
-    report.estimated_error = ending.estimated_error;
+    report.picture_error = ending.picture_error;
+    report.solution_error = ending.solution_error;
+    const ErrorParts goal = ending.for_picture && ending.picture_error ? *ending.picture_error
+                                                                       : ending.solution_error;
+    report.estimated_error = goal.total();
     for (std::size_t b = 0; b < enclosure.bands; ++b) {
         report.closure_error =
             std::max(report.closure_error, closure_error(coarse.areas(b), coarse.elements(), b));
@@ -71,7 +87,8 @@ Report solve_report(const Enclosure& enclosure, const CoarseSolution& coarse,
         report.warnings.push_back(
             fmt::format("refinement ended at max_time = {} s; the estimated error is {:.3g}.",
                         options.max_time, report.estimated_error));
-    if (ending.limited && report.estimated_error > options.error)
+    warn_of_noise(goal, options, report);
+    if (ending.limited && std::max(ending.refined_to, goal.elements) > options.error)
         report.warnings.push_back(
             fmt::format("refinement ended at a limit (max_elements = {}, max_memory = {} bytes) "
                         "before the error "

@@ -8,10 +8,13 @@ namespace tyndall::radiosity {
 
 // How a refinement ended.
 struct Ending {
-    double estimated_error = 0.0;  // [-]
-    bool stopped = false;          // by the caller
-    bool limited = false;          // by max_elements or max_memory
-    bool out_of_time = false;      // by max_time
+    double refined_to = 0.0;  // the error that refinement saw at its end [-]
+    std::optional<ErrorParts> picture_error;
+    ErrorParts solution_error;
+    bool for_picture = false;  // it refined for the picture, not for the solution
+    bool stopped = false;      // by the caller
+    bool limited = false;      // by max_elements or max_memory
+    bool out_of_time = false;  // by max_time
 };
 
 // Everything of a Report but patches, zones and passes. `incident_direct`: H^A of the coarse
