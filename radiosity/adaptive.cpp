@@ -93,23 +93,23 @@ class Loop {
         end_pass("direct light");
         if (kept_.save) {
             const Fields indirect = leaf_light_.indirect(coarse);
-            kept_.save(collect(
-                coarse, [&](auto leaf, std::size_t b) { return indirect.at(leaf, b); }));
+            kept_.save(
+                collect(coarse, [&](auto leaf, std::size_t b) { return indirect.at(leaf, b); }));
         }
 
         IndirectRefiner indirect(*enclosure_, mesh_, coarse.elements(), options_.gather_rays,
                                  options_.seed);
         gather(coarse, lit, importance, adaptive() ? indirect_share * goal : 1e300, indirect);
-        Solution solution = collect(
-            coarse, [&](auto leaf, std::size_t b) { return indirect.field(leaf, b); });
+        Solution solution =
+            collect(coarse, [&](auto leaf, std::size_t b) { return indirect.field(leaf, b); });
         end_pass("indirect light");
         const LeafErrors errors = leaf_errors(*enclosure_, mesh_, direct_, indirect, leaf_light_,
                                               coarse, solution.indirect, options_.radiance);
         estimate_errors(errors, camera_, solution);
-        solution.report =
-            solve_report(*enclosure_, coarse, incident_direct_, light_, options_,
-                         {std::sqrt(squared_error_), solution.report.picture_error, solution.report.solution_error,
-                          view_.has_value(), stopped_, limited_, out_of_time_});
+        solution.report = solve_report(
+            *enclosure_, coarse, incident_direct_, light_, options_,
+            {std::sqrt(squared_error_), solution.report.picture_error,
+             solution.report.solution_error, view_.has_value(), stopped_, limited_, out_of_time_});
         solution.report.patches = mesh_.patch_leaf_count();
         solution.report.zones = mesh_.zone_leaf_count();
         solution.report.passes = passes_;

@@ -117,8 +117,8 @@ std::vector<double> CoarseSolution::carried(const std::vector<double>& departure
         for (std::size_t i = 0; i < n; ++i)
             source[i] = elements_.scatter[i * bands + b] * departure[i * bands + b];
         // An error of the error of 1 % is enough.
-        const SolverResult solved = solve_gmres({elements_, rows, b, source},
-                                                {0.01, options_.solver_iterations});
+        const SolverResult solved =
+            solve_gmres({elements_, rows, b, source}, {0.01, options_.solver_iterations});
         const std::vector<double> received = multiply(rows, elements_, solved.radiance);
         for (std::size_t i = 0; i < n; ++i)
             if (const double c = elements_.capacity[i * bands + b]; c > 0.0)

@@ -27,16 +27,19 @@ double variance(const Forest& forest, Node leaf, const Affine& f) {
     return sum / (std::is_same_v<Node, ZoneId> ? 20.0 : 12.0);
 }
 
-// H of the coarse elements less the mean of what has been gathered over them.
-std::vector<double> level_difference(const ElementMesh& mesh, const LeafLight& leaf_light,
-                                     const CoarseSolution& coarse, const Fields& gathered) {
+// H of the coarse elements less the mean of what has been gathered over them, and what the mean of
+// direct light may be wrong by.
+std::vector<double> level_difference(const ElementMesh& mesh, DirectRefiner& direct,
+                                     const LeafLight& leaf_light, const CoarseSolution& coarse,
+                                     const Fields& gathered) {
     const Elements& e = coarse.elements();
     const Forest& forest = mesh.forest();
     std::vector<double> sum(e.size() * e.bands, 0.0), measure(e.size(), 0.0);
     const auto add = [&](auto leaf, std::uint32_t element, double size) {
         measure[element] += size;
         for (std::size_t b = 0; b < e.bands; ++b)
-            sum[element * e.bands + b] += size * gathered.at(leaf, b).at(forest.centroid(leaf));
+            sum[element * e.bands + b] += size * (gathered.at(leaf, b).at(forest.centroid(leaf)) -
+                                                  direct.mean_difference(leaf, b));
     };
     for (const ZoneId z : mesh.zones())
         if (forest.is_leaf(z)) add(z, leaf_light.element_above(z, e.of_zone), forest.volume(z));
@@ -54,8 +57,8 @@ std::vector<double> level_difference(const ElementMesh& mesh, const LeafLight& l
 class SolutionSums {
   public:
     template <class Node>
-    void add(const Solution& s, const LeafErrors& errors, Node leaf, double departure,
-             double split, double capacity, std::size_t b) {
+    void add(const Solution& s, const LeafErrors& errors, Node leaf, double departure, double split,
+             double capacity, std::size_t b) {
         const double a = scatter_of(s, leaf, b), weight = capacity * a * a;
         const Point x = s.forest.centroid(leaf);
         elements_ += weight * square(departure);
@@ -80,15 +83,15 @@ double leaf_error(const Solution& s, const LeafErrors& errors, Node leaf, double
     const Point x = s.forest.centroid(leaf);
     double sum = 0.0;
     for (std::size_t b = 0; b < errors.gathers.bands; ++b)
-        sum += scatter_of(s, leaf, b) * std::sqrt(square(departure) +
-                                                  square(errors.gathers.at(leaf, b).at(x)) +
-                                                  square(errors.coarse.at(leaf, b).at(x)));
+        sum += scatter_of(s, leaf, b) *
+               std::sqrt(square(departure) + square(errors.gathers.at(leaf, b).at(x)) +
+                         square(errors.coarse.at(leaf, b).at(x)));
     return sum / static_cast<double>(errors.gathers.bands);
 }
 
 }  // namespace
 
-LeafErrors leaf_errors(const Enclosure& enclosure, ElementMesh& mesh, const DirectRefiner& direct,
+LeafErrors leaf_errors(const Enclosure& enclosure, ElementMesh& mesh, DirectRefiner& direct,
                        IndirectRefiner& indirect, LeafLight& leaf_light,
                        const CoarseSolution& coarse, const Fields& gathered, Radiance radiance) {
     const Forest& forest = mesh.forest();
@@ -101,7 +104,7 @@ LeafErrors leaf_errors(const Enclosure& enclosure, ElementMesh& mesh, const Dire
     errors.patch_elements.resize(forest.patch_count());
     errors.patch_direct.resize(forest.patch_count());
     const auto carried =
-        coarse.carried(level_difference(mesh, leaf_light, coarse, gathered));
+        coarse.carried(level_difference(mesh, direct, leaf_light, coarse, gathered));
     // Squares of what leaves hold too coarsely, of direct and of indirect light.
     const auto fill = [&](auto leaf, std::uint32_t element) {
         double of_direct = square(direct.error(leaf)), of_indirect = square(indirect.error(leaf));
@@ -112,6 +115,7 @@ LeafErrors leaf_errors(const Enclosure& enclosure, ElementMesh& mesh, const Dire
             noise = {whole_net * noise.gradient, whole_net * noise.constant};
             errors.gathers.at(leaf, b) = noise;
             errors.coarse.at(leaf, b).constant = carried[element * bands + b];
+            of_direct += square(direct.mean_difference(leaf, b)) / static_cast<double>(bands);
             if (radiance == Radiance::linear) continue;
             of_direct += seen * variance(forest, leaf, leaf_light.direct(leaf, b));
             of_indirect += seen * variance(forest, leaf, indirect.field(leaf, b));

@@ -18,13 +18,14 @@ struct LeafErrors {
 
 // Purpose: all of that, of the leaves of a mesh whose gathers are made. `gathered`: indirect light
 // of the leaves.
-//   elements: departures that refinement has left (DirectRefiner, IndirectRefiner); where elements
-//     are constant, their own variation too
+//   elements: departures that refinement has left (DirectRefiner, IndirectRefiner), and the
+//     difference of two rules for the mean of direct light; where elements are constant, their own
+//     variation too
 //   gathers: half the difference of two halves of the rays, times 2^(−1/6)
 //   coarse: H of the coarse elements less the mean of `gathered` over them, the level difference,
-//     sent on through the rows (CoarseSolution::carried)
+//     and the difference of the two rules, sent on through the rows (CoarseSolution::carried)
 // Cost: O(leaves) and one more solution of the linear system, to 1 %.
-LeafErrors leaf_errors(const Enclosure& enclosure, ElementMesh& mesh, const DirectRefiner& direct,
+LeafErrors leaf_errors(const Enclosure& enclosure, ElementMesh& mesh, DirectRefiner& direct,
                        IndirectRefiner& indirect, LeafLight& leaf_light,
                        const CoarseSolution& coarse, const Fields& gathered, Radiance radiance);
 

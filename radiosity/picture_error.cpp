@@ -113,7 +113,8 @@ std::optional<ErrorParts> picture_error(const Solution& solution, const LeafErro
                 if (entry.tet.valid() && !solution.enclosure->solid(entry.tet)) {
                     ErrorWalk(solution, errors, ray, entry.tet, b).add_to(lines[y]);
                 } else {
-                    lines[y].radiance += entry.tet.valid() ? 0.0 : solution.enclosure->environment[b];
+                    lines[y].radiance +=
+                        entry.tet.valid() ? 0.0 : solution.enclosure->environment[b];
                     ++lines[y].rays;
                 }
             }

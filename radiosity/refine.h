@@ -44,6 +44,10 @@ class DirectRefiner {
     // Mean of H^A over a leaf by the degree-2 rule of corners and centroid.
     double mean(ZoneId zone, std::size_t band);
     double mean(PatchId patch, std::size_t band);
+    // That mean less the one by the degree-2 rule that uses the middles of edges: exact for
+    // quadratics, both miss what jumps, each in its own way.
+    double mean_difference(ZoneId zone, std::size_t band);
+    double mean_difference(PatchId patch, std::size_t band);
     // Error of what a leaf holds, from the departures at its edges' middles and centroid and from
     // jumps across it: as chords of a zone see it, as it stands on a patch [W/m^2/sr].
     double error(ZoneId zone) const {

@@ -67,7 +67,8 @@ std::pair<double, std::array<int, 2>> IndirectRefiner::measure(Node node) {
     std::vector<SampleId> all(corners.begin(), corners.end());
     for (int i = 0; i < count; ++i)
         for (int j = i + 1; j < count; ++j) all.push_back(mesh_.middle(node, i, j));
-    // One sample's half difference may be small by chance; that of all the element's samples is not.
+    // One sample's half difference may be small by chance; that of all the element's samples is
+    // not.
     std::vector<double> noise(enclosure_.bands, 0.0);
     for (std::size_t b = 0; b < noise.size(); ++b) {
         for (const SampleId id : all) {
@@ -229,8 +230,8 @@ Affine IndirectRefiner::linear_part(Node leaf, std::size_t band) {
     return with_mean(f, forest.centroid(leaf), std::max(0.0, mean));
 }
 
-// Noise has either sign and no mean to be kept: the quadratic's values at the leaf's corners will do
-// on a patch; a zone's noise is what its mean has.
+// Noise has either sign and no mean to be kept: the quadratic's values at the leaf's corners will
+// do on a patch; a zone's noise is what its mean has.
 template <class Node>
 Affine IndirectRefiner::noise_part(Node leaf, std::size_t band) {
     const Forest& forest = mesh_.forest();

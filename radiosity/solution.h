@@ -52,7 +52,7 @@ struct Report {
     double energy_balance = 0.0;      // imbalance over power brought in [-]
     double direct_power_check = 0.0;  // (received + escaped − emitted) / emitted [-]
     std::map<std::string, Spectrum>
-        net_power;                 // out of each surface side, medium; into outside [W]
+        net_power;  // out of each surface side, medium; into outside [W]
     // Of what refinement weighs errors by: the picture, or the solution where there is no view or
     // refinement does not ask for it [-].
     double estimated_error = 0.0;

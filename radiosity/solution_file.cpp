@@ -77,8 +77,7 @@ void read_errors(const Hdf5Reader& file, const Elements& elements, Solution& s) 
     if (!file.has(path)) return;
     const auto direct = file.array<float>(path);
     expect_size(file, path, direct.size(), elements.patches.size());
-    for (k = 0; k < direct.size(); ++k)
-        s.patch_direct_error[elements.patches[k].value] = direct[k];
+    for (k = 0; k < direct.size(); ++k) s.patch_direct_error[elements.patches[k].value] = direct[k];
 }
 
 void write_coarse(Hdf5Writer& file, const ElementValues& coarse) {

@@ -62,8 +62,8 @@ Report solve_report(const Enclosure& enclosure, const CoarseSolution& coarse,
     report.lost_rays = coarse.lost_rays();
     report.picture_error = ending.picture_error;
     report.solution_error = ending.solution_error;
-    const ErrorParts goal = ending.for_picture && ending.picture_error ? *ending.picture_error
-                                                                       : ending.solution_error;
+    const ErrorParts goal =
+        ending.for_picture && ending.picture_error ? *ending.picture_error : ending.solution_error;
     report.estimated_error = goal.total();
     for (std::size_t b = 0; b < enclosure.bands; ++b) {
         report.closure_error =
