@@ -105,6 +105,8 @@ constexpr Setting render_settings[] = {
      [](T t, K k, Settings& s) { s.render.method = render_method_names[t.choice(k, render_method_names)]; }},
     {{"samples", "whole number", "16", "rays a pixel"},
      [](T t, K k, Settings& s) { s.render.samples = t.count(k, 1, 65536); }},
+    {{"seed", "whole number", "solve.seed", "of the places in a pixel that rays go through"},
+     [](T t, K k, Settings& s) { s.render.seed = t.count(k, 0, 1ull << 53); }},
     {{"exposure", "number [stops]", "0", "added to the automatic exposure of the PNG"},
      [](T t, K k, Settings& s) { s.tone_map.exposure = t.number(k, {-100.0, 100.0}); }},
     {{"white", "number [W/m²/sr]", "automatic", "radiance shown as white in the PNG"},
@@ -144,8 +146,8 @@ const KeyTable& render_keys() {
 Settings read_settings(const TableReader& root) {
     Settings settings;
     read(root, "solve", solve_keys(), solve_settings, settings);
-    read(root, "render", render_keys(), render_settings, settings);
     settings.render.seed = settings.solve.seed;
+    read(root, "render", render_keys(), render_settings, settings);
     return settings;
 }
 

@@ -28,6 +28,8 @@ Json figures_json(const RunFigures& f) {
             {"wall_seconds", f.wall_seconds},
             {"memory_bytes", f.memory_bytes},
             {"estimated_error", f.estimated_error},
+            {"estimated_picture_error", f.estimated_picture_error},
+            {"estimated_solution_error", f.estimated_solution_error},
             {"tet_quality_min", f.tet_quality_min},
             {"tet_quality_mean", f.tet_quality_mean},
             {"triangle_quality_min", f.triangle_quality_min},
@@ -43,6 +45,8 @@ RunFigures figures_of(const Json& json) {
     f.wall_seconds = number(json.at("wall_seconds"));
     f.memory_bytes = json.at("memory_bytes").get<std::size_t>();
     f.estimated_error = number(json.at("estimated_error"));
+    f.estimated_picture_error = number(json.value("estimated_picture_error", Json()));
+    f.estimated_solution_error = number(json.value("estimated_solution_error", Json()));
     f.tet_quality_min = number(json.at("tet_quality_min"));
     f.tet_quality_mean = number(json.at("tet_quality_mean"));
     f.triangle_quality_min = number(json.at("triangle_quality_min"));

@@ -18,7 +18,8 @@ struct RunFigures {
     std::size_t patches = 0, zones = 0, rays = 0;
     double cpu_seconds = 0.0, wall_seconds = 0.0;
     std::size_t memory_bytes = 0;
-    double estimated_error = 0.0;  // of the run's report [-]
+    // Of the run's report [-]. Of the picture: NaN where it has none.
+    double estimated_error = 0.0, estimated_picture_error = 0.0, estimated_solution_error = 0.0;
     // Shape quality of the leaves, 1 for regular ones [-].
     double tet_quality_min = 0.0, tet_quality_mean = 0.0;
     double triangle_quality_min = 0.0, triangle_quality_mean = 0.0;

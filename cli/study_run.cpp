@@ -5,6 +5,7 @@
 
 #include <csignal>
 #include <cstring>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "cli/child_process.h"
@@ -60,8 +61,13 @@ RunFigures figures_of(const fs::path& folder, const ChildOutcome& outcome) {
     figures.patches = report.at("patches").get<std::size_t>();
     figures.zones = report.at("zones").get<std::size_t>();
     for (const auto& pass : report.at("passes")) figures.rays += pass.at("rays").get<std::size_t>();
-    const auto& estimate = report.at("estimated_error");
-    figures.estimated_error = estimate.is_null() ? 0.0 : estimate.get<double>();
+    const auto estimate = [&](const char* key) {
+        const auto& value = report.at(key);
+        return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
+    };
+    figures.estimated_error = estimate("estimated_error");
+    figures.estimated_picture_error = estimate("estimated_picture_error");
+    figures.estimated_solution_error = estimate("estimated_solution_error");
     figures.cpu_seconds = outcome.cpu_seconds;
     figures.wall_seconds = outcome.wall_seconds;
     figures.memory_bytes = outcome.peak_memory_bytes;

@@ -165,6 +165,14 @@ std::string run_table(const Study& study, const std::vector<StudyRow>& rows) {
             head += fmt::format(" {} {} |", measure.name(), name_of(figure));
             rule += "---|";
         }
+    head += " picture estimated |";
+    rule += "---|";
+    const bool picture = std::any_of(study.measures.begin(), study.measures.end(),
+                                     [](const auto& m) { return m.name() == "picture"; });
+    if (picture) {
+        head += " estimated / RMSE |";
+        rule += "---|";
+    }
     for (const auto& row : rows) {
         if (row.record.failed()) continue;
         const auto& f = row.record.figures;
@@ -181,6 +189,13 @@ std::string run_table(const Study& study, const std::vector<StudyRow>& rows) {
                                                                 : found->second.block16;
                 text += fmt::format(" {} |", percent(error));
             }
+        }
+        text += fmt::format(" {} |", percent(f.estimated_picture_error));
+        if (picture) {
+            const auto found = row.record.errors.find("picture");
+            text += found == row.record.errors.end()
+                        ? " |"
+                        : fmt::format(" {:.2f} |", f.estimated_picture_error / found->second.rmse);
         }
         text += "\n";
     }

@@ -56,7 +56,9 @@ std::vector<Column> columns_of(const Study& study, const RunRecord& record) {
                                    {"tet_quality_mean", f.tet_quality_mean},
                                    {"triangle_quality_min", f.triangle_quality_min},
                                    {"triangle_quality_mean", f.triangle_quality_mean},
-                                   {"estimated_error", f.estimated_error}});
+                                   {"estimated_error", f.estimated_error},
+                                   {"estimated_picture_error", f.estimated_picture_error},
+                                   {"estimated_solution_error", f.estimated_solution_error}});
     if (record.failed())
         for (auto& column : columns) column.value = nullptr;
     return columns;

@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "mesh/input_error.h"
+#include "radiosity/balance.h"
+#include "radiosity/error_estimate.h"
 #include "radiosity/incident_lit.h"
 #include "radiosity/leaf_light.h"
 #include "radiosity/resources.h"
@@ -57,6 +59,7 @@ class Loop {
         : enclosure_(std::move(enclosure)),
           options_(options),
           kept_(passes),
+          camera_(view),
           view_(view),
           progress_([this, progress, began = wall_seconds()](const Progress& now) {
               out_of_time_ = options_.max_time > 0.0 && wall_seconds() - began > options_.max_time;
@@ -102,18 +105,16 @@ class Loop {
         const Importance importance(*enclosure_, mesh_.forest(), view_, scale_);
         if (last && kept_.begin_with) mesh_.replay(kept_.begin_with->forest);
         direct_.update();
-        if (adaptive())
-            note(direct_.refine(importance, direct_share * goal, limits(0.8), progress_,
-                                {asks_for(options_, "direct"), other_indicators(coarse)}));
+        note(direct_.refine(importance, adaptive() ? direct_share * goal : 1e300, limits(0.8),
+                            progress_, {asks_for(options_, "direct"), other_indicators(coarse)}));
         direct_.sample_means();
         const LitPatches lit = leaf_light_.lit_patches();
         solve(coarse, &lit);
         end_pass("direct light");
         if (saving(last)) {
             const Fields indirect = leaf_light_.indirect(coarse);
-            kept_.save(collect(
-                coarse, [&](auto leaf, std::size_t b) { return indirect.at(leaf, b); },
-                [](auto) { return 0.0; }));
+            kept_.save(
+                collect(coarse, [&](auto leaf, std::size_t b) { return indirect.at(leaf, b); }));
         }
 
         IndirectRefiner indirect(*enclosure_, mesh_, coarse.elements(), options_.gather_rays,
@@ -121,13 +122,17 @@ class Loop {
         gather(coarse, lit, importance,
                adaptive() && asks_for(options_, "indirect") ? indirect_share * goal : 1e300,
                indirect);
-        Solution solution = collect(
-            coarse, [&](auto leaf, std::size_t b) { return indirect.field(leaf, b); },
-            [&](auto leaf) { return indirect.error(leaf); });
+        Solution solution =
+            collect(coarse, [&](auto leaf, std::size_t b) { return indirect.field(leaf, b); });
         end_pass("indirect light");
+        const LeafErrors errors = leaf_errors(*enclosure_, mesh_, direct_, indirect, leaf_light_,
+                                              coarse, solution.indirect, options_.radiance);
+        estimate_errors(errors, camera_, solution);
         solution.report =
             solve_report(*enclosure_, coarse, incident_direct_, light_, options_,
-                         {std::sqrt(squared_error_), stopped_, limited_, out_of_time_});
+                         {std::sqrt(squared_error_), solution.report.picture_error,
+                          solution.report.solution_error, escaped_direct_, direct_power_check_,
+                          view_.has_value(), stopped_, limited_, out_of_time_});
         solution.report.patches = mesh_.patch_leaf_count();
         solution.report.zones = mesh_.zone_leaf_count();
         solution.report.passes = passes_;
@@ -172,8 +177,8 @@ class Loop {
     void make_initial_mesh();
     void solve(CoarseSolution& coarse, const LitPatches* lit = nullptr);
     void rate(const CoarseSolution& coarse);
-    template <class Field, class Error>
-    Solution collect(const CoarseSolution& coarse, Field&& indirect, Error&& error_of);
+    template <class Field>
+    Solution collect(const CoarseSolution& coarse, Field&& indirect);
 
     void note(const RefineResult& result) {
         stopped_ = stopped_ || result.stopped;
@@ -196,7 +201,8 @@ class Loop {
     std::shared_ptr<const Enclosure> enclosure_;
     SolveOptions options_;
     Passes kept_;
-    std::optional<View> view_;
+    std::optional<View> camera_;  // whose picture's error is estimated
+    std::optional<View> view_;    // for which is refined
     ProgressCallback progress_;
     DirectLight light_;
     ElementMesh mesh_;
@@ -204,6 +210,8 @@ class Loop {
     DirectRefiner direct_;
     LeafLight leaf_light_;
     std::vector<double> incident_direct_;  // of the coarse elements
+    Spectrum escaped_direct_;              // [W]
+    double direct_power_check_ = 0.0;
     Importance::Scale scale_;
     std::vector<PassReport> passes_;
     double squared_error_ = 0.0;
@@ -272,6 +280,10 @@ void Loop::solve(CoarseSolution& coarse, const LitPatches* lit) {
     for (std::size_t i = 0; i < e.size(); ++i)
         for (std::size_t b = 0; b < bands; ++b)
             if (measure[i] > 0.0) incident_direct_[i * bands + b] /= measure[i];
+    if (escaped_direct_.empty())
+        escaped_direct_ = escaped_direct(*enclosure_, coarse, 16384, options_.seed);
+    direct_power_check_ =
+        conserve_direct_power(*enclosure_, e, light_, escaped_direct_, incident_direct_);
     if (lit)
         coarse.solve(incident_direct_, incident_lit(*enclosure_, forest, e, *lit));
     else
@@ -313,9 +325,9 @@ void Loop::rate(const CoarseSolution& coarse) {
     scale_.picture = sum / (across * down);
 }
 
-// The leaves' fields, given indirect light and its error.
-template <class Field, class Error>
-Solution Loop::collect(const CoarseSolution& coarse, Field&& indirect, Error&& error_of) {
+// The leaves' fields, given indirect light. Their errors are those of direct light alone.
+template <class Field>
+Solution Loop::collect(const CoarseSolution& coarse, Field&& indirect) {
     const Forest& forest = mesh_.forest();
     const std::size_t bands = enclosure_->bands;
     Solution solution;
@@ -335,12 +347,13 @@ Solution Loop::collect(const CoarseSolution& coarse, Field&& indirect, Error&& e
                 solution.direct.at(node, b) = leaf_light_.direct(node, b);
             solution.indirect.at(node, b) = indirect(node, b);
         }
-        error = static_cast<float>(direct_.error(node) + error_of(node));
+        error = static_cast<float>(direct_.error(node));
     };
     for (const ZoneId z : mesh_.zones())
         if (forest.is_leaf(z)) fill(z, solution.zone_error[z.value]);
     for (const PatchId p : mesh_.patches())
         if (forest.is_leaf(p)) fill(p, solution.patch_error[p.value]);
+    solution.patch_direct_error = solution.patch_error;
     if (options_.radiance == Radiance::constant) {
         flatten(forest, solution.direct);
         flatten(forest, solution.indirect);

@@ -2,6 +2,7 @@
 
 #include <glm/geometric.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -156,17 +157,41 @@ class Escape {
 
 }  // namespace
 
+Spectrum escaped_direct(const Enclosure& enclosure, const CoarseSolution& coarse, std::size_t rays,
+                        std::uint64_t seed) {
+    return Escape(enclosure, coarse, rays, seed).follow();
+}
+
+double conserve_direct_power(const Enclosure& enclosure, const Elements& e,
+                             const DirectLight& light, const Spectrum& escaped,
+                             std::vector<double>& incident_direct) {
+    double missing = 0.0, all = 0.0;
+    // A sun's power is what falls on the hull, whatever gets in.
+    const bool known =
+        !enclosure.open &&
+        std::none_of(enclosure.lights.begin(), enclosure.lights.end(),
+                     [](const Light& l) { return std::holds_alternative<Sun>(l.source); });
+    for (std::size_t b = 0; b < e.bands; ++b) {
+        double emitted = 0.0, received = 0.0;
+        for (const LightPower& p : light.powers()) emitted += p.power[b];
+        for (std::size_t k = b; k < e.capacity.size(); k += e.bands)
+            received += pi * e.capacity[k] * incident_direct[k];
+        missing += received + escaped[b] - emitted;
+        all += emitted;
+        if (!known || !(received > 0.0)) continue;
+        for (std::size_t k = b; k < e.capacity.size(); k += e.bands)
+            incident_direct[k] *= emitted / received;
+    }
+    return all > 0.0 ? missing / all : 0.0;
+}
+
 Balance balance(const Enclosure& enclosure, const CoarseSolution& coarse,
                 const std::vector<double>& incident_direct, const DirectLight& light,
-                std::size_t rays, std::uint64_t seed) {
+                const Spectrum& escaped) {
     const Elements& e = coarse.elements();
     const std::size_t bands = e.bands;
     Balance result;
-    const Spectrum escaped_direct = Escape(enclosure, coarse, rays, seed).follow();
-    Spectrum received_direct(bands, 0.0), emitted_direct(bands, 0.0), lights(bands, 0.0),
-        brought(bands, 0.0), net(bands, 0.0), outside = escaped_direct;
-    for (const LightPower& p : light.powers())
-        for (std::size_t b = 0; b < bands; ++b) emitted_direct[b] += p.power[b];
+    Spectrum lights(bands, 0.0), brought(bands, 0.0), net(bands, 0.0), outside = escaped;
     for (std::size_t k = light.powers().size() - enclosure.lights.size(); k < light.powers().size();
          ++k)
         for (std::size_t b = 0; b < bands; ++b) lights[b] += light.powers()[k].power[b];
@@ -186,23 +211,19 @@ Balance balance(const Enclosure& enclosure, const CoarseSolution& coarse,
             named(name)[b] += power;
             net[b] += power;
             brought[b] += pi * c * e.emission[k];
-            received_direct[b] += pi * c * incident_direct[k];
             const ExchangeAreas& rows = coarse.areas(b);
             const double escaping = pi * to_outside(rows, e, i);
             outside[b] += escaping * (r - enclosure.environment[b]);
             brought[b] += escaping * enclosure.environment[b];
         }
     }
-    double imbalance = 0.0, total = 0.0, direct = 0.0, direct_total = 0.0;
+    double imbalance = 0.0, total = 0.0;
     for (std::size_t b = 0; b < bands; ++b) {
         imbalance += net[b] + lights[b] - outside[b];
         total += brought[b] + lights[b];
-        direct += received_direct[b] + escaped_direct[b] - emitted_direct[b];
-        direct_total += emitted_direct[b];
     }
     named("outside") = outside;
     result.energy_balance = total > 0.0 ? imbalance / total : 0.0;
-    result.direct_power_check = direct_total > 0.0 ? direct / direct_total : 0.0;
     return result;
 }
 

@@ -9,17 +9,28 @@ namespace tyndall::radiosity {
 struct Balance {
     std::map<std::string, Spectrum> net_power;  // out of surface sides and media, into outside [W]
     double energy_balance = 0.0;  // (sent out − taken up − escaped) over what is brought in [-]
-    // (received + escaped − emitted) / emitted, direct light only [-]
-    double direct_power_check = 0.0;
 };
 
+// Power of direct light that leaves the hull, a value a band [W]: found apart from H^A, by
+// following `rays` Sobol' rays from every emitter and light, so that a check against it can fail.
+// Cost: rays × lights walks; none where the hull is closed.
+Spectrum escaped_direct(const Enclosure& enclosure, const CoarseSolution& coarse, std::size_t rays,
+                        std::uint64_t seed);
+
+// Purpose: H^A of the coarse elements (`incident_direct`, [element * bands + band]) made to take up
+//   as much as is emitted, in a closed hull: f Σ π c_i H^A_i = P_emitted, one f for all. Through an
+//   optically thick medium hardly anything of the emitted power passes, and an error of it, in the
+//   quadrature over elements of many mean free paths, would be many times that of what passes.
+//   Where the hull is open nothing is changed: what escapes is sampled, and not known as well.
+// Returns the check before: (received + escaped − emitted) / emitted [-].
+double conserve_direct_power(const Enclosure& enclosure, const Elements& elements,
+                             const DirectLight& light, const Spectrum& escaped,
+                             std::vector<double>& incident_direct);
+
 // Net power of element i: π c_i (x_i − H_i) [W]; of outside: π Σ_i S_i,out r_i, plus direct light
-// that escapes, minus what the environment sends in. Balance: Σ net + lights' power = 0. Direct
-// light that escapes is found apart from H^A, by following `rays` Sobol' rays from every emitter,
-// so that the check can fail.
-// Cost: rays × lights walks.
+// that escapes, minus what the environment sends in. Balance: Σ net + lights' power = 0.
 Balance balance(const Enclosure& enclosure, const CoarseSolution& coarse,
                 const std::vector<double>& incident_direct, const DirectLight& light,
-                std::size_t rays, std::uint64_t seed);
+                const Spectrum& escaped);
 
 }  // namespace tyndall::radiosity

@@ -147,6 +147,24 @@ void CoarseSolution::solve(const std::vector<double>& incident_direct,
     }
 }
 
+std::vector<double> CoarseSolution::carried(const std::vector<double>& departure) const {
+    const std::size_t bands = elements_.bands, n = elements_.size();
+    std::vector<double> result(n * bands, 0.0), source(n);
+    for (std::size_t b = 0; b < bands; ++b) {
+        const ExchangeAreas& rows = areas(b);
+        for (std::size_t i = 0; i < n; ++i)
+            source[i] = elements_.scatter[i * bands + b] * departure[i * bands + b];
+        // An error of the error of 1 % is enough.
+        const SolverResult solved =
+            solve_gmres({elements_, rows, b, source}, {0.01, options_.solver_iterations});
+        const std::vector<double> received = multiply(rows, elements_, solved.radiance);
+        for (std::size_t i = 0; i < n; ++i)
+            if (const double c = elements_.capacity[i * bands + b]; c > 0.0)
+                result[i * bands + b] = received[i] / c;
+    }
+    return result;
+}
+
 ElementValues CoarseSolution::values(const std::vector<double>& incident_direct) const {
     ElementValues values;
     values.elements = elements_;

@@ -31,6 +31,12 @@ class CoarseSolution {
     void solve(const std::vector<double>& incident_direct,
                const std::vector<double>& incident_lit = {});
 
+    // Purpose: the error of what is gathered from this solution, given the error that a finer
+    // gather finds in its H (`departure`: H − finer H, [element * bands + band]). To first order
+    //   δx = a (departure + S δx / c),  δH = S δx / c:                               (28)
+    // the departure sent through the rows, once and again.
+    std::vector<double> carried(const std::vector<double>& departure) const;
+
     const SolverReport& report() const { return report_; }
     // S r / c with outside: the indirect part of H, and r itself [W/m^2/sr].
     double indirect(std::size_t element, std::size_t band) const {

@@ -166,7 +166,7 @@ void gather(const GatherScene& scene, const LitPatches* lit, const GatherPoint& 
     const double count = static_cast<double>(points.size());
     for (std::size_t b = 0; b < bands; ++b) {
         incident[b].mean = radiance[b] + (halves[b] + halves[bands + b]) / count;
-        incident[b].spread = std::abs(halves[b] - halves[bands + b]) / count;
+        incident[b].half_difference = (halves[b] - halves[bands + b]) / count;
     }
 }
 

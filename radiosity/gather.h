@@ -19,8 +19,10 @@ struct GatherPoint {
 };
 
 struct Gathered {
-    double mean = 0.0;    // H: mean radiance, cosine-weighted on a surface [W/m^2/sr]
-    double spread = 0.0;  // half the difference of the two halves of the rays: its noise [W/m^2/sr]
+    double mean = 0.0;  // H: mean radiance, cosine-weighted on a surface [W/m^2/sr]
+    // Half the difference of what the two halves of the rays find, with its sign: one throw of the
+    // mean's noise, and the same throw at all points that share their directions [W/m^2/sr].
+    double half_difference = 0.0;
 };
 
 // What gathers walk through: the trees and r of every leaf in single precision and packed, since a
@@ -63,7 +65,7 @@ void radiance_along(const GatherScene& scene, const mesh::Ray& ray, mesh::WalkSt
 
 // H at a point from the points of the set, scrambled by `seed`: one value a band. What `lit` holds
 // must not be in the scene's sources.
-// Cost: points.size() walks. Error: see `spread`.
+// Cost: points.size() walks. Error: see `half_difference`.
 void gather(const GatherScene& scene, const LitPatches* lit, const GatherPoint& point,
             const PointSet& points, std::uint64_t seed, std::span<Gathered> incident);
 

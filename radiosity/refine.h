@@ -1,6 +1,8 @@
 // Where elements are too coarse for what they hold, and their refinement.
 #pragma once
 
+#include <algorithm>
+
 #include "radiosity/element_mesh.h"
 #include "radiosity/importance.h"
 #include "radiosity/indicators.h"
@@ -53,10 +55,18 @@ class DirectRefiner {
     // Mean of H^A over a leaf: sampled, or by the degree-2 rule of corners and centroid.
     double mean(ZoneId zone, std::size_t band);
     double mean(PatchId patch, std::size_t band);
-    // Error of what a leaf holds, from the departures at its edges' middles and centroid: as chords
-    // of a zone see it, as it stands on a patch [W/m^2/sr].
-    double error(ZoneId zone) const { return zone_error_[zone.value]; }
-    double error(PatchId patch) const { return patch_error_[patch.value]; }
+    // That mean less the one by the degree-2 rule that uses the middles of edges: exact for
+    // quadratics, both miss what jumps, each in its own way.
+    double mean_difference(ZoneId zone, std::size_t band);
+    double mean_difference(PatchId patch, std::size_t band);
+    // Error of what a leaf holds, from the departures at its edges' middles and centroid and from
+    // jumps across it: as chords of a zone see it, as it stands on a patch [W/m^2/sr].
+    double error(ZoneId zone) const {
+        return std::max<double>(zone_error_[zone.value], cuts_ ? cuts_->error(zone) : 0.0);
+    }
+    double error(PatchId patch) const {
+        return std::max<double>(patch_error_[patch.value], cuts_ ? cuts_->error(patch) : 0.0);
+    }
 
   private:
     struct Candidate {
@@ -117,6 +127,9 @@ class IndirectRefiner {
     // The linear function of a leaf: its own, or that of the settled element above it.
     Affine field(ZoneId zone, std::size_t band);
     Affine field(PatchId patch, std::size_t band);
+    // One throw of the noise in that function, from the half differences of its samples.
+    Affine noise(ZoneId zone, std::size_t band);
+    Affine noise(PatchId patch, std::size_t band);
     // Departure from linear found at the settled element, mean over bands [W/m^2/sr].
     template <class Node>
     double error(Node leaf) const {
@@ -143,10 +156,14 @@ class IndirectRefiner {
     RefineResult refine(std::vector<Node> frontier, IndirectSources sources,
                         const Importance& importance, double goal, const RefineLimits& limits,
                         const ProgressCallback& progress);
+    // Of a sample and band: H, or its noise.
+    using SampleValue = double (SampleSet::*)(SampleId, std::size_t) const;
     template <class Node>
-    auto quadratic(Node node, std::size_t band);
+    auto quadratic(Node node, std::size_t band, SampleValue value);
     template <class Node>
     Affine linear_part(Node leaf, std::size_t band);
+    template <class Node>
+    Affine noise_part(Node leaf, std::size_t band);
     void divide(const std::vector<PatchId>& patches);
     double scatter(ZoneId zone) const;
     double scatter(PatchId patch) const;

@@ -281,4 +281,21 @@ double DirectRefiner::mean(PatchId patch, std::size_t band) {
     return sum / 12.0 + 0.75 * patch_centroid_[patch.value * bands_ + band];
 }
 
+double DirectRefiner::mean_difference(ZoneId zone, std::size_t band) {
+    double corners = 0.0, middles = 0.0;
+    for (const SampleId id : mesh_.lit_corners(zone)) corners += mesh_.samples().direct(id, band);
+    for (int i = 0; i < 4; ++i)
+        for (int j = i + 1; j < 4; ++j)
+            middles += mesh_.samples().direct(mesh_.lit_middle(zone, i, j), band);
+    return mean(zone, band) - (0.2 * middles - 0.05 * corners);
+}
+
+double DirectRefiner::mean_difference(PatchId patch, std::size_t band) {
+    double middles = 0.0;
+    for (int i = 0; i < 3; ++i)
+        for (int j = i + 1; j < 3; ++j)
+            middles += mesh_.samples().direct(mesh_.lit_middle(patch, i, j), band);
+    return mean(patch, band) - middles / 3.0;
+}
+
 }  // namespace tyndall::radiosity

@@ -67,10 +67,14 @@ std::pair<double, std::array<int, 2>> IndirectRefiner::measure(Node node) {
     std::vector<SampleId> all(corners.begin(), corners.end());
     for (int i = 0; i < count; ++i)
         for (int j = i + 1; j < count; ++j) all.push_back(mesh_.middle(node, i, j));
-    // One sample's spread may be small by chance; that of all the element's samples is not.
+    // One sample's half difference may be small by chance; that of all the element's samples is
+    // not.
     std::vector<double> noise(enclosure_.bands, 0.0);
     for (std::size_t b = 0; b < noise.size(); ++b) {
-        for (const SampleId id : all) noise[b] += samples.spread(id, b) * samples.spread(id, b);
+        for (const SampleId id : all) {
+            const double spread = samples.half_difference(id, b);
+            noise[b] += spread * spread;
+        }
         noise[b] =
             deviations * departure_noise * std::sqrt(noise[b] / static_cast<double>(all.size()));
     }
@@ -189,16 +193,16 @@ Node IndirectRefiner::settled_above(Node node) const {
 }
 
 template <class Node>
-auto IndirectRefiner::quadratic(Node node, std::size_t band) {
+auto IndirectRefiner::quadratic(Node node, std::size_t band, SampleValue value) {
     const auto samples = mesh_.corners(node);
     constexpr std::size_t count = std::tuple_size_v<decltype(samples)>;
     Quadratic<count> q;
     std::size_t edge = 0;
     for (std::size_t i = 0; i < count; ++i) {
         q.points[i] = mesh_.forest().point(mesh_.forest()[node].corners[i]);
-        q.at_corners[i] = mesh_.samples().indirect(samples[i], band);
+        q.at_corners[i] = (mesh_.samples().*value)(samples[i], band);
         for (std::size_t j = i + 1; j < count; ++j)
-            q.at_middles[edge++] = mesh_.samples().indirect(mesh_.middle(node, i, j), band);
+            q.at_middles[edge++] = (mesh_.samples().*value)(mesh_.middle(node, i, j), band);
     }
     return q;
 }
@@ -208,7 +212,7 @@ Affine IndirectRefiner::linear_part(Node leaf, std::size_t band) {
     const Forest& forest = mesh_.forest();
     constexpr bool is_zone = std::is_same_v<Node, ZoneId>;
     const Node node = settled_above(leaf);
-    const auto q = quadratic(node, band);
+    const auto q = quadratic(node, band, &SampleSet::indirect);
     constexpr std::size_t count = std::tuple_size_v<decltype(q.points)>;
     std::array<Point, count> points;
     std::array<double, count> values;
@@ -224,6 +228,36 @@ Affine IndirectRefiner::linear_part(Node leaf, std::size_t band) {
                             : 0.05 * (values[0] + values[1] + values[2] + values[count - 1]) +
                                   0.8 * q.at(forest.centroid(leaf));
     return with_mean(f, forest.centroid(leaf), std::max(0.0, mean));
+}
+
+// Noise has either sign and no mean to be kept: the quadratic's values at the leaf's corners will
+// do on a patch; a zone's noise is what its mean has.
+template <class Node>
+Affine IndirectRefiner::noise_part(Node leaf, std::size_t band) {
+    const Forest& forest = mesh_.forest();
+    const auto q = quadratic(settled_above(leaf), band, &SampleSet::half_difference);
+    constexpr std::size_t count = std::tuple_size_v<decltype(q.points)>;
+    std::array<Point, count> points;
+    std::array<double, count> values;
+    for (std::size_t k = 0; k < count; ++k) {
+        points[k] = forest.point(forest[leaf].corners[k]);
+        values[k] = q.at(points[k]);
+    }
+    Affine f = interpolate(points, values);
+    if constexpr (std::is_same_v<Node, ZoneId>) {
+        double mean = 0.8 * q.at(forest.centroid(leaf));
+        for (const double value : values) mean += 0.05 * value;
+        f.constant += mean - f.at(forest.centroid(leaf));
+    }
+    return f;
+}
+
+Affine IndirectRefiner::noise(ZoneId zone, std::size_t band) {
+    return noise_part(zone, band);
+}
+
+Affine IndirectRefiner::noise(PatchId patch, std::size_t band) {
+    return noise_part(patch, band);
 }
 
 Affine IndirectRefiner::field(ZoneId zone, std::size_t band) {

@@ -55,6 +55,14 @@ Spectrum spectrum_of(const Json& json) {
     return spectrum;
 }
 
+Json parts_json(const ErrorParts& parts) {
+    return {{"elements", parts.elements}, {"gathers", parts.gathers}, {"coarse", parts.coarse}};
+}
+
+ErrorParts parts_of(const Json& json) {
+    return {number(json.at("elements")), number(json.at("gathers")), number(json.at("coarse"))};
+}
+
 Report report_of(const Json& json) {
     Report report;
     report.patches = json.at("patches").get<std::size_t>();
@@ -72,6 +80,11 @@ Report report_of(const Json& json) {
     for (const auto& [name, power] : json.at("net_power").items())
         report.net_power[name] = spectrum_of(power);
     report.estimated_error = number(json.at("estimated_error"));
+    // Files of earlier versions do not have these.
+    if (const auto parts = json.find("error_parts"); parts != json.end()) {
+        report.solution_error = parts_of(parts->at("solution"));
+        if (parts->contains("picture")) report.picture_error = parts_of(parts->at("picture"));
+    }
     report.lost_rays = json.at("lost_rays").get<std::size_t>();
     report.stopped = json.at("stopped").get<bool>();
     report.warnings = json.at("warnings").get<std::vector<std::string>>();
@@ -99,6 +112,12 @@ std::string report_to_json(const Report& report, Costs costs) {
     for (const auto& [name, power] : report.net_power)
         json["net_power"][name] = spectrum_json(power);
     json["estimated_error"] = report.estimated_error;
+    json["estimated_picture_error"] =
+        report.picture_error ? Json(report.picture_error->total()) : Json();
+    json["estimated_solution_error"] = report.solution_error.total();
+    json["error_parts"] = Json::object();
+    if (report.picture_error) json["error_parts"]["picture"] = parts_json(*report.picture_error);
+    json["error_parts"]["solution"] = parts_json(report.solution_error);
     json["lost_rays"] = report.lost_rays;
     json["stopped"] = report.stopped;
     json["warnings"] = report.warnings;

@@ -44,8 +44,8 @@ class SampleSet {
     double indirect(SampleId id, std::size_t band) const {
         return indirect_[id.value * bands_ + band].mean;
     }
-    double spread(SampleId id, std::size_t band) const {
-        return indirect_[id.value * bands_ + band].spread;
+    double half_difference(SampleId id, std::size_t band) const {
+        return indirect_[id.value * bands_ + band].half_difference;
     }
     std::size_t memory() const { return points_.size() * (sizeof(GatherPoint) + 80 + bands_ * 24); }
 

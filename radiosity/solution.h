@@ -1,8 +1,10 @@
 // What a solve returns: the mesh, what its elements hold, and how good it is.
 #pragma once
 
+#include <cmath>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +30,18 @@ struct SolverReport {
     bool converged = false;
 };
 
+// Estimated relative errors, root mean squares, by their causes [-]. They do not know of each
+// other, so their squares add up.
+struct ErrorParts {
+    double elements = 0.0;  // leaves too coarse for what they hold
+    double gathers = 0.0;   // noise of the last gathers (gather_rays)
+    double coarse = 0.0;    // noise and coarseness of the solution gathered from (rays, start)
+
+    double total() const {
+        return std::sqrt(elements * elements + gathers * gathers + coarse * coarse);
+    }
+};
+
 struct Report {
     std::size_t patches = 0, zones = 0;  // leaves
     std::size_t solved_elements = 0;     // elements of the coarse solution
@@ -39,7 +53,11 @@ struct Report {
     double direct_power_check = 0.0;  // (received + escaped − emitted) / emitted [-]
     // Out of each surface side, medium; into outside [W].
     std::map<std::string, Spectrum> net_power;
-    double estimated_error = 0.0;  // of the picture, or of the solution where there is no view [-]
+    // Of what refinement weighs errors by: the picture, or the solution where there is no view or
+    // refinement does not ask for it [-].
+    double estimated_error = 0.0;
+    std::optional<ErrorParts> picture_error;  // where there is a view
+    ErrorParts solution_error;
     std::size_t lost_rays = 0;
     bool stopped = false;  // by the caller, or at a limit
     std::vector<std::string> warnings;
@@ -61,8 +79,9 @@ struct Solution {
     Fields direct, indirect;  // of every leaf [W/m^2/sr]
     ElementValues coarse;
     DirectLightMode direct_light = DirectLightMode::closed_form;
-    std::vector<float> patch_error,
-        zone_error;  // estimated error of each leaf's x, by node [W/m^2/sr]
+    // Estimated error of each leaf's x, by node, all causes joined [W/m^2/sr].
+    std::vector<float> patch_error, zone_error;
+    std::vector<float> patch_direct_error;  // of H^A alone, by node: pictures compute it anew
     Report report;
 };
 

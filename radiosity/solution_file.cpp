@@ -70,6 +70,10 @@ void write_errors(Hdf5Writer& file, const Solution& s, const Elements& elements)
     for (const PatchId patch : elements.patches) errors.push_back(s.patch_error[patch.value]);
     for (const ZoneId zone : elements.zones) errors.push_back(s.zone_error[zone.value]);
     file.array(root + "/error", errors);
+    errors.clear();
+    for (const PatchId patch : elements.patches)
+        errors.push_back(s.patch_direct_error[patch.value]);
+    file.array(root + "/patch_direct_error", errors);
 }
 
 void read_errors(const Hdf5Reader& file, const Elements& elements, Solution& s) {
@@ -80,6 +84,13 @@ void read_errors(const Hdf5Reader& file, const Elements& elements, Solution& s) 
     std::size_t k = 0;
     for (const PatchId patch : elements.patches) s.patch_error[patch.value] = errors[k++];
     for (const ZoneId zone : elements.zones) s.zone_error[zone.value] = errors[k++];
+    const std::string path = root + "/patch_direct_error";
+    // Files of earlier versions do not have it: the whole error is no less.
+    s.patch_direct_error = s.patch_error;
+    if (!file.has(path)) return;
+    const auto direct = file.array<float>(path);
+    expect_size(file, path, direct.size(), elements.patches.size());
+    for (k = 0; k < direct.size(); ++k) s.patch_direct_error[elements.patches[k].value] = direct[k];
 }
 
 void write_coarse(Hdf5Writer& file, const ElementValues& coarse) {

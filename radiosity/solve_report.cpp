@@ -10,9 +10,11 @@
 namespace tyndall::radiosity {
 namespace {
 
-// Constant J in an optically thick zone of the coarse solution overstates what passes through it: 5
-// % of the flux at 0.5 (docs/limits.md).
-constexpr double thin_enough = 0.5;
+// Optical depths of a zone in the coarse solution above which fluxes through it are off: with
+// constant J by 5 % at 0.5, with linear J by some per cent above 2 (docs/limits.md).
+double thin_enough(const CoarseSolution& coarse) {
+    return coarse.areas(0).moments.empty() ? 0.5 : 2.0;
+}
 
 void warn_of_thick_zones(const Enclosure& enclosure, const CoarseSolution& coarse, Report& report) {
     const Elements& e = coarse.elements();
@@ -29,13 +31,26 @@ void warn_of_thick_zones(const Enclosure& enclosure, const CoarseSolution& coars
                 medium = m;
             }
     }
-    if (thickest > thin_enough)
+    const double thin = thin_enough(coarse);
+    if (thickest > thin)
         report.warnings.push_back(fmt::format(
             "zones of medium \"{}\" in the coarse solution are up to {:.2g} optical depths thick: "
-            "fluxes through them are overstated. Set solve.element_size to {:.2g} m or less.",
+            "fluxes through them are uncertain. Set solve.element_size to {:.2g} m or less.",
             enclosure.media[medium].name, thickest,
-            thin_enough / *std::max_element(enclosure.media[medium].extinction.begin(),
-                                            enclosure.media[medium].extinction.end())));
+            thin / *std::max_element(enclosure.media[medium].extinction.begin(),
+                                     enclosure.media[medium].extinction.end())));
+}
+
+// Refinement makes elements smaller; it cannot mend what rays leave.
+void warn_of_noise(const ErrorParts& error, const SolveOptions& options, Report& report) {
+    if (options.refinement < Refinement::adaptive || error.total() <= options.error) return;
+    const double noise = std::hypot(error.gathers, error.coarse);
+    if (noise < error.elements) return;
+    report.warnings.push_back(fmt::format(
+        "the error goal of {} is not met, and smaller elements would not help: the last gathers' "
+        "noise is {:.2g} % (raise solve.gather_rays), the coarse solution's error {:.2g} % (raise "
+        "solve.rays, or lower solve.element_size).",
+        options.error, 100.0 * error.gathers, 100.0 * error.coarse));
 }
 
 }  // namespace
@@ -48,17 +63,21 @@ Report solve_report(const Enclosure& enclosure, const CoarseSolution& coarse,
     report.solver = coarse.report();
     report.stopped = ending.stopped;
     report.lost_rays = coarse.lost_rays();
-    report.estimated_error = ending.estimated_error;
+    report.picture_error = ending.picture_error;
+    report.solution_error = ending.solution_error;
+    const ErrorParts goal =
+        ending.for_picture && ending.picture_error ? *ending.picture_error : ending.solution_error;
+    report.estimated_error = goal.total();
     for (std::size_t b = 0; b < enclosure.bands; ++b) {
         report.closure_error =
             std::max(report.closure_error, closure_error(coarse.areas(b), coarse.elements(), b));
         report.reciprocity_error = std::max(report.reciprocity_error,
                                             reciprocity_error(coarse.areas(b), coarse.elements()));
     }
-    const Balance power = balance(enclosure, coarse, incident_direct, light, 16384, options.seed);
+    const Balance power = balance(enclosure, coarse, incident_direct, light, ending.escaped_direct);
     report.net_power = power.net_power;
     report.energy_balance = power.energy_balance;
-    report.direct_power_check = power.direct_power_check;
+    report.direct_power_check = ending.direct_power_check;
     report.warnings = enclosure.warnings;
     warn_of_thick_zones(enclosure, coarse, report);
     if (std::abs(report.direct_power_check) > 0.005)
@@ -71,7 +90,8 @@ Report solve_report(const Enclosure& enclosure, const CoarseSolution& coarse,
         report.warnings.push_back(
             fmt::format("refinement ended at max_time = {} s; the estimated error is {:.3g}.",
                         options.max_time, report.estimated_error));
-    if (ending.limited && report.estimated_error > options.error)
+    warn_of_noise(goal, options, report);
+    if (ending.limited && std::max(ending.refined_to, goal.elements) > options.error)
         report.warnings.push_back(
             fmt::format("refinement ended at a limit (max_elements = {}, max_memory = {} bytes) "
                         "before the error "

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <optional>
 
+#include "mesh/entry.h"
 #include "mesh/input_error.h"
 #include "radiosity/direct_light.h"
 #include "radiosity/point_set.h"
@@ -108,7 +109,7 @@ class LineOfSight {
         const PatchId leaf = s_.forest.leaf_at(mesh::root_patch(end.facet, end.side), x);
         thread_local std::vector<double> direct;
         direct.resize(bands_);
-        if (s_.patch_error[leaf.value] > threshold_) {
+        if (s_.patch_direct_error[leaf.value] > threshold_) {
             const mesh::Direction n = radiosity::normal_of(s_.forest, leaf);
             light_.at_patch(x, n, end.tet, direct);
         } else {
@@ -146,29 +147,6 @@ double typical_radiance(const radiosity::Solution& s) {
         area += a * static_cast<double>(s.enclosure->bands);
     }
     return area > 0.0 ? sum / area : 0.0;
-}
-
-// Where rays from the eye enter the mesh: the eye's own tet, or, from outside the hull, the point
-// where the ray meets it.
-struct Entry {
-    mesh::TetId tet;
-    double distance = 0.0;
-};
-
-Entry entry_of(const mesh::BaseMesh& mesh, const mesh::Ray& ray, mesh::TetId eye) {
-    if (eye.valid()) return {eye, 0.0};
-    double t_in = 0.0, t_out = std::numeric_limits<double>::infinity();
-    for (int k = 0; k < 3; ++k) {
-        const double inverse = 1.0 / ray.direction[k];
-        double a = (mesh.hull_min[k] - ray.origin[k]) * inverse;
-        double b = (mesh.hull_max[k] - ray.origin[k]) * inverse;
-        if (a > b) std::swap(a, b);
-        t_in = std::max(t_in, a);
-        t_out = std::min(t_out, b);
-    }
-    if (!(t_in < t_out)) return {};
-    const double inside = t_in + 1e-9 * (t_out - t_in);
-    return {mesh::locate(mesh, ray.origin + inside * ray.direction), inside};
 }
 
 Image blank(const Camera& camera, std::size_t bands) {
@@ -222,7 +200,7 @@ Image line_of_sight(const radiosity::Solution& solution, const Camera& camera,
             for (std::size_t k = 0; k < points.size(); ++k) {
                 const auto u = points(k, seed);
                 mesh::Ray ray = camera_ray(double(x) + u[0], double(y) + u[1]);
-                const Entry entry = entry_of(enclosure.mesh, ray, eye);
+                const mesh::Entry entry = mesh::entry_of(enclosure.mesh, ray, eye);
                 if (!entry.tet.valid() || enclosure.solid(entry.tet)) {
                     for (std::size_t b = 0; b < bands; ++b) {
                         sum[emission * bands + b] +=
