@@ -105,7 +105,7 @@ TEST_CASE("compare tells the errors, in words and as JSON") {
     CHECK(json.at("bias").get<double>() == Approx(0.5 / 32.0 / 2.0));
     CHECK(json.at("max_error").get<double>() == Approx(0.25));
     CHECK(json.at("width") == 8);
-    CHECK(contents(place.path / "off.png").substr(1, 3) == "PNG");
+    CHECK(place.read("off.png").substr(1, 3) == "PNG");
 }
 
 TEST_CASE("compare understands folders, layers and their sum") {
