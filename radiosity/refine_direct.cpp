@@ -233,6 +233,17 @@ double DirectRefiner::mean(PatchId patch, std::size_t band) {
     return sum / 12.0 + 0.75 * patch_centroid_[patch.value * bands_ + band];
 }
 
+void DirectRefiner::light_middles() {
+    const Forest& forest = mesh_.forest();
+    for (const ZoneId z : mesh_.zones())
+        for (int i = 0; forest.is_leaf(z) && i < 4; ++i)
+            for (int j = i + 1; j < 4; ++j) mesh_.lit_middle(z, i, j);
+    for (const PatchId p : mesh_.patches())
+        for (int i = 0; forest.is_leaf(p) && i < 3; ++i)
+            for (int j = i + 1; j < 3; ++j) mesh_.lit_middle(p, i, j);
+    mesh_.samples().light(light_);
+}
+
 double DirectRefiner::mean_difference(ZoneId zone, std::size_t band) {
     double corners = 0.0, middles = 0.0;
     for (const SampleId id : mesh_.lit_corners(zone)) corners += mesh_.samples().direct(id, band);
