@@ -55,6 +55,9 @@ class DirectRefiner {
     // Mean of H^A over a leaf: sampled, or by the degree-2 rule of corners and centroid.
     double mean(ZoneId zone, std::size_t band);
     double mean(PatchId patch, std::size_t band);
+    // Evaluates what marks of the mesh have made new since `update`, at all leaves: to be called
+    // before `mean_difference`.
+    void light_middles();
     // That mean less the one by the degree-2 rule that uses the middles of edges: exact for
     // quadratics, both miss what jumps, each in its own way.
     double mean_difference(ZoneId zone, std::size_t band);

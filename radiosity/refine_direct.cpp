@@ -281,6 +281,28 @@ double DirectRefiner::mean(PatchId patch, std::size_t band) {
     return sum / 12.0 + 0.75 * patch_centroid_[patch.value * bands_ + band];
 }
 
+void DirectRefiner::light_middles() {
+    const Forest& forest = mesh_.forest();
+    // A middle that is marked may be another leaf's corner, or middle: until nothing is new.
+    std::size_t before;
+    do {
+        before = mesh_.samples().size();
+        for (const ZoneId z : mesh_.zones()) {
+            if (!forest.is_leaf(z)) continue;
+            mesh_.lit_corners(z);
+            for (int i = 0; i < 4; ++i)
+                for (int j = i + 1; j < 4; ++j) mesh_.lit_middle(z, i, j);
+        }
+        for (const PatchId p : mesh_.patches()) {
+            if (!forest.is_leaf(p)) continue;
+            mesh_.lit_corners(p);
+            for (int i = 0; i < 3; ++i)
+                for (int j = i + 1; j < 3; ++j) mesh_.lit_middle(p, i, j);
+        }
+    } while (mesh_.samples().size() > before);
+    mesh_.samples().light(light_);
+}
+
 double DirectRefiner::mean_difference(ZoneId zone, std::size_t band) {
     double corners = 0.0, middles = 0.0;
     for (const SampleId id : mesh_.lit_corners(zone)) corners += mesh_.samples().direct(id, band);

@@ -33,7 +33,9 @@ struct Scene {
         auto camera = file.cameras.front();
         camera.width = width;
         camera.height = height;
-        return render::line_of_sight(solution, camera, file.render);
+        auto options = file.render;
+        options.samples = 64;  // edges of such large pixels are to be no error
+        return render::line_of_sight(solution, camera, options);
     }
 };
 
@@ -67,12 +69,12 @@ TEST_CASE("Window shafts: the estimated error is that against a path tracer", "[
 TEST_CASE("Shaft box: the solution's estimated error is that against a finer run", "[estimate]") {
     const Scene scene("tests/scenes/shaft_box.toml");
     auto options = scene.file.solve;
-    options.error = 0.05;
-    options.rays = options.gather_rays = 64;
+    options.error = 0.1;
+    options.rays = options.gather_rays = 32;
     const auto solution = scene.solve(options);
     CHECK(!solution.report.picture_error);
-    options.error = 0.02;
-    options.rays = options.gather_rays = 256;
+    options.error = 0.04;
+    options.rays = options.gather_rays = 128;
     options.seed = 7;
     check_ratio(solution.report.solution_error.total(),
                 test::relative_difference(solution, scene.solve(options)));
