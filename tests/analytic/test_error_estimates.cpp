@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "cli/scene_file.h"
-#include "mesh/catch.h"
+#include "support/catch.h"
 #include "radiosity/adaptive.h"
 #include "render/compare.h"
 #include "render/image_files.h"

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "mesh/catch.h"
+#include "support/catch.h"
 #include "radiosity/adaptive.h"
 #include "support/rooms.h"
 

@@ -1,5 +1,5 @@
 // Gradients of elements from their neighbours, and the moments of exchange areas they multiply.
-#include "mesh/catch.h"
+#include "support/catch.h"
 #include "radiosity/element_mesh.h"
 #include "radiosity/exchange_walked.h"
 #include "support/cube.h"

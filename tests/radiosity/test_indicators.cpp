@@ -3,7 +3,7 @@
 
 #include <cstring>
 
-#include "mesh/catch.h"
+#include "support/catch.h"
 #include "mesh/input_error.h"
 #include "radiosity/adaptive.h"
 #include "radiosity/scene_builder.h"
