@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/entry.h"
 #include "mesh/input_error.h"
 #include "radiosity/balance.h"
 #include "radiosity/error_estimate.h"
@@ -234,7 +235,7 @@ void Loop::make_initial_mesh() {
 std::function<IndicatedErrors()> Loop::other_indicators(const CoarseSolution& coarse) {
     std::vector<Indicator> asked;
     if (asks_for(options_, "jump")) asked.push_back(jump_error);
-    if (options_.indicator) asked.push_back(options_.indicator);
+    if (options_.indicator) asked.push_back(*options_.indicator);
     if (asked.empty()) return {};
     return [this, &coarse, asked] {
         return indicated_errors(asked, *enclosure_, mesh_, leaf_light_.sources(coarse));
@@ -304,10 +305,6 @@ void Loop::rate(const CoarseSolution& coarse) {
     scale_.solution = capacity > 0.0 ? square / capacity : 0.0;
     if (!view_) return;
     const TetId eye = mesh::locate(enclosure_->mesh, view_->eye);
-    if (!eye.valid() || enclosure_->solid(eye)) {
-        view_.reset();
-        return;
-    }
     const Fields sources = leaf_light_.sources(coarse);
     const GatherScene scene(*enclosure_, mesh_.forest(), sources);
     constexpr int across = 32, down = 24;
@@ -317,12 +314,16 @@ void Loop::rate(const CoarseSolution& coarse) {
         for (int x = 0; x < across; ++x) {
             const double s = (2.0 * (x + 0.5) / across - 1.0) * view_->tan_half_x;
             const double t = (1.0 - 2.0 * (y + 0.5) / down) * view_->tan_half_y;
-            const mesh::Ray ray{view_->eye,
-                                glm::normalize(view_->forward + s * view_->right + t * view_->up)};
-            radiance_along(scene, ray, {eye}, radiance);
+            mesh::Ray ray{view_->eye,
+                          glm::normalize(view_->forward + s * view_->right + t * view_->up)};
+            const mesh::Entry entry = mesh::entry_of(enclosure_->mesh, ray, eye);
+            if (!entry.tet.valid() || enclosure_->solid(entry.tet)) continue;
+            ray.origin += entry.distance * ray.direction;
+            radiance_along(scene, ray, {entry.tet}, radiance);
             sum += mean_over_bands(radiance);
         }
     scale_.picture = sum / (across * down);
+    if (!(sum > 0.0)) view_.reset();  // it sees nothing
 }
 
 // The leaves' fields, given indirect light. Their errors are those of direct light alone.

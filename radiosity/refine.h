@@ -72,6 +72,7 @@ class DirectRefiner {
     }
 
   private:
+    void make_samples(const std::vector<ZoneId>& zones, const std::vector<PatchId>& patches);
     struct Candidate {
         double share;
         std::uint32_t index;

@@ -107,23 +107,7 @@ void DirectRefiner::update() {
         if (const PatchId p = mesh_.patches()[patches_done_]; forest.is_leaf(p))
             patches.push_back(p);
     if (cuts_) cuts_->update(zones, patches);
-    for (const ZoneId z : zones) {
-        mesh_.lit_corners(z);
-        for (int i = 0; i < 4; ++i)
-            for (int j = i + 1; j < 4; ++j) mesh_.lit_middle(z, i, j);
-    }
-    for (const PatchId p : patches) {
-        mesh_.lit_corners(p);
-        for (int i = 0; i < 3; ++i)
-            for (int j = i + 1; j < 3; ++j) mesh_.lit_middle(p, i, j);
-    }
-    if (cuts_) {
-        // A corner that has been marked since has other samples.
-        for (const ZoneId z : mesh_.zones())
-            if (forest.is_leaf(z)) mesh_.lit_corners(z);
-        for (const PatchId p : mesh_.patches())
-            if (forest.is_leaf(p)) mesh_.lit_corners(p);
-    }
+    make_samples(zones, patches);
     mesh_.samples().light(light_);
 
     zone_error_.resize(forest.zone_count());
@@ -282,25 +266,37 @@ double DirectRefiner::mean(PatchId patch, std::size_t band) {
 }
 
 void DirectRefiner::light_middles() {
+    make_samples(mesh_.zones(), mesh_.patches());
+    mesh_.samples().light(light_);
+}
+
+// Samples at corners and middles of the given nodes that are leaves, and at the corners of all
+// leaves. A middle may be marked when it is made, and is then another sample of other leaves that
+// have it as a corner or middle: until nothing is new.
+void DirectRefiner::make_samples(const std::vector<ZoneId>& zones,
+                                 const std::vector<PatchId>& patches) {
     const Forest& forest = mesh_.forest();
-    // A middle that is marked may be another leaf's corner, or middle: until nothing is new.
     std::size_t before;
     do {
         before = mesh_.samples().size();
-        for (const ZoneId z : mesh_.zones()) {
+        for (const ZoneId z : zones) {
             if (!forest.is_leaf(z)) continue;
             mesh_.lit_corners(z);
             for (int i = 0; i < 4; ++i)
                 for (int j = i + 1; j < 4; ++j) mesh_.lit_middle(z, i, j);
         }
-        for (const PatchId p : mesh_.patches()) {
+        for (const PatchId p : patches) {
             if (!forest.is_leaf(p)) continue;
             mesh_.lit_corners(p);
             for (int i = 0; i < 3; ++i)
                 for (int j = i + 1; j < 3; ++j) mesh_.lit_middle(p, i, j);
         }
+        if (!cuts_) return;
+        for (const ZoneId z : mesh_.zones())
+            if (forest.is_leaf(z)) mesh_.lit_corners(z);
+        for (const PatchId p : mesh_.patches())
+            if (forest.is_leaf(p)) mesh_.lit_corners(p);
     } while (mesh_.samples().size() > before);
-    mesh_.samples().light(light_);
 }
 
 double DirectRefiner::mean_difference(ZoneId zone, std::size_t band) {

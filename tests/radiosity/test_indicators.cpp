@@ -3,10 +3,10 @@
 
 #include <cstring>
 
-#include "support/catch.h"
 #include "mesh/input_error.h"
 #include "radiosity/adaptive.h"
 #include "radiosity/scene_builder.h"
+#include "support/catch.h"
 #include "support/rooms.h"
 
 using namespace tyndall;
@@ -23,14 +23,14 @@ Solution solve(const Enclosure& enclosure, const Names& names, const Indicator& 
     options.max_elements = max_elements;
     options.rays = options.gather_rays = 8;
     options.indicators = names;
-    options.indicator = own;
+    if (own) options.indicator = std::make_shared<const Indicator>(own);
     return solve_adaptively(std::make_shared<const Enclosure>(enclosure), options);
 }
 
 // A lamp of some size, and a point that casts sharp shadows through the slit.
-Enclosure lit_room() {
+Enclosure lit_room(double intensity = 10.0) {  // of the point [W/sr]
     Scene scene = test::slit_room();
-    scene.lights = {{"point", PointLight{{0.4, 0.6, 1.5}, {10.0}}, ""}};
+    scene.lights = {{"point", PointLight{{0.4, 0.6, 1.5}, {intensity}}, ""}};
     return make_enclosure(scene);
 }
 
@@ -48,7 +48,7 @@ TEST_CASE("Without indicators nothing is bisected, and each alone bisects", "[in
     const Enclosure enclosure = lit_room();
     const auto none = leaves(solve(enclosure, {}));
     CHECK(leaves(solve(enclosure, {"direct"})) > none);
-    CHECK(leaves(solve(enclosure, {"shadow_boundary"}, {}, 8000, 0.01)) > none);
+    CHECK(leaves(solve(lit_room(1000.0), {"shadow_boundary"}, {}, 8000, 0.01)) > none);
     CHECK(leaves(solve(enclosure, {"indirect"})) > none);
     CHECK(leaves(solve(enclosure, {"jump"})) > none);
 }
