@@ -55,8 +55,8 @@ struct SolveOptions {
     Refinement refinement = Refinement::aligned;
     // By which errors leaves are bisected, by name (indicators.h), from Refinement::adaptive on.
     std::vector<std::string> indicators{"direct", "shadow_boundary", "indirect"};
-    std::shared_ptr<const Indicator>
-        indicator;  // the caller's own, beside those; called in the order of leaves
+    // The caller's own, beside those; called in the order of leaves.
+    std::shared_ptr<const Indicator> indicator{};
     double optical_thickness = 0.5;  // extinction × size: coarse zones below are thin enough [-]
     Radiance radiance = Radiance::linear;
     DirectLightMode direct_light = DirectLightMode::closed_form;
