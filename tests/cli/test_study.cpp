@@ -45,13 +45,13 @@ struct Workplace : test::Workplace {
 };
 
 const std::string two_runs = R"(scene = "scene.toml"
-reference = { "solve.element_size" = 0.3 }
+reference = { "solve.element_size" = 0.5 }
 measure = ["picture", "single_scattering", "surfaces", "media", "probe"]
 errors = [0.5]
 probe = { count = 8, rays = 64 }
 [axes]
 "solve.refinement" = ["uniform"]
-"solve.element_size" = [0.9, 0.5]
+"solve.element_size" = [1.4, 0.8]
 )";
 
 }  // namespace
@@ -64,7 +64,7 @@ TEST_CASE("A study runs its matrix, measures, plots, and keeps what is done") {
     REQUIRE(first.code == 0);
     const auto rows = nlohmann::json::parse(first.out).at("rows");
     REQUIRE(rows.size() == 2);
-    CHECK(rows[0].at("solve.element_size") == "0.9");
+    CHECK(rows[0].at("solve.element_size") == "1.4");
     CHECK(rows[0].at("zones").get<int>() < rows[1].at("zones").get<int>());
     for (const auto& row : rows) {
         CHECK(row.at("cpu_seconds").get<double>() > 0.0);
@@ -90,39 +90,39 @@ TEST_CASE("A study runs its matrix, measures, plots, and keeps what is done") {
         CHECK(fs::file_size(place.path / "out" / name) > 0);
 
     SECTION("again: nothing is run, all is said") {
-        const auto before = place.made("refinement-uniform_element_size-0.5");
+        const auto before = place.made("refinement-uniform_element_size-0.8");
         const auto again = place.run("study study.toml -o out --json");
         CHECK(again.code == 0);
         CHECK(again.out == first.out);
-        CHECK(place.made("refinement-uniform_element_size-0.5") == before);
+        CHECK(place.made("refinement-uniform_element_size-0.8") == before);
         CHECK(place.run("study study.toml -o out --again --quiet").code == 0);
-        CHECK(place.made("refinement-uniform_element_size-0.5") != before);
+        CHECK(place.made("refinement-uniform_element_size-0.8") != before);
     }
     SECTION("widened: only what is new is run") {
-        const auto before = place.made("refinement-uniform_element_size-0.5");
+        const auto before = place.made("refinement-uniform_element_size-0.8");
         auto wider = two_runs;
-        wider.replace(wider.find("[0.9, 0.5]"), 10, "[0.9, 0.5, 0.4]");
+        wider.replace(wider.find("[1.4, 0.8]"), 10, "[1.4, 0.8, 0.6]");
         place.write("study.toml", wider);
         CHECK(place.run("study study.toml -o out --quiet").code == 0);
         CHECK(place.rows() == 3);
-        CHECK(place.made("refinement-uniform_element_size-0.5") == before);
+        CHECK(place.made("refinement-uniform_element_size-0.8") == before);
     }
     SECTION("another slice: the same runs, drawn again") {
-        const auto before = place.made("refinement-uniform_element_size-0.5");
-        const auto slice = place.path / "out/runs/refinement-uniform_element_size-0.5/slice.png";
+        const auto before = place.made("refinement-uniform_element_size-0.8");
+        const auto slice = place.path / "out/runs/refinement-uniform_element_size-0.8/slice.png";
         const auto drawn = mesh::read_file(slice);
         place.write("study.toml", std::string("slice = { point = [0.2, 0.5, 0.5], normal = [1, 0, "
                                               "0] }\n") +
                                       two_runs);
         CHECK(place.run("study study.toml -o out --quiet").code == 0);
-        CHECK(place.made("refinement-uniform_element_size-0.5") == before);
+        CHECK(place.made("refinement-uniform_element_size-0.8") == before);
         CHECK(mesh::read_file(slice) != drawn);
     }
     SECTION("another scene: all is run again") {
-        const auto before = place.made("refinement-uniform_element_size-0.5");
+        const auto before = place.made("refinement-uniform_element_size-0.8");
         place.write("scene.toml", std::string(scene) + "environment = { radiance = 1.0 }\n");
         CHECK(place.run("study study.toml -o out --quiet").code == 0);
-        CHECK(place.made("refinement-uniform_element_size-0.5") != before);
+        CHECK(place.made("refinement-uniform_element_size-0.8") != before);
     }
     SECTION("files as references, for each measure its own") {
         place.write("points.csv", "0.5,0.5,0.5\n0.2,0.7,0.3\n");
@@ -130,7 +130,7 @@ TEST_CASE("A study runs its matrix, measures, plots, and keeps what is done") {
             place.run("probe out/references/reference --points points.csv -o values.csv").code ==
             0);
         auto filed = two_runs;
-        const std::string finer = "{ \"solve.element_size\" = 0.3 }";
+        const std::string finer = "{ \"solve.element_size\" = 0.5 }";
         filed.replace(
             filed.find(finer), finer.size(),
             "{ picture = \"out/references/reference/image.exr\", single_scattering = "
@@ -216,12 +216,12 @@ axes = { "solve.rays" = [16] }
 TEST_CASE("A study that is stopped or killed goes on where it was") {
     const Workplace place;
     auto text = two_runs;
-    text.replace(text.find("[0.9, 0.5]"), 10, "[0.9, 0.5, 0.45, 0.4, 0.35, 0.32]");
+    text.replace(text.find("[1.4, 0.8]"), 10, "[1.4, 0.8, 0.72, 0.65, 0.6, 0.55]");
     place.write("study.toml", text);
     const int signal = GENERATE(SIGINT, SIGKILL);
     test::Running child(place.path, {"study", "study.toml", "-o", "out", "--quiet"});
     // Not before the first run is done; a minute is enough on any machine.
-    const auto first = place.path / "out/runs/refinement-uniform_element_size-0.9/run.json";
+    const auto first = place.path / "out/runs/refinement-uniform_element_size-1.4/run.json";
     for (int k = 0; k < 6000 && !fs::exists(first); ++k)
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
     REQUIRE(fs::exists(first));
@@ -230,10 +230,10 @@ TEST_CASE("A study that is stopped or killed goes on where it was") {
     if (signal == SIGINT) CHECK(code == 1);
     // A child of the killed study ends by itself; until then it may hold its folder.
     std::this_thread::sleep_for(std::chrono::milliseconds(500));
-    const auto before = place.made("refinement-uniform_element_size-0.9");
+    const auto before = place.made("refinement-uniform_element_size-1.4");
     const auto outcome = place.run("study study.toml -o out --quiet");
     INFO(outcome.err);
     CHECK(outcome.code == 0);
     CHECK(place.rows() == 6);
-    CHECK(place.made("refinement-uniform_element_size-0.9") == before);
+    CHECK(place.made("refinement-uniform_element_size-1.4") == before);
 }
