@@ -15,6 +15,7 @@ using mesh::Point;
 constexpr double process_bytes = 35e6;
 constexpr double element_bytes = 800.0, element_band_bytes = 300.0;
 constexpr double row_entry_bytes = 8.0;    // column and value
+constexpr double moment_bytes = 12.0;      // of an entry, where elements are linear
 constexpr double crossings = 10.0;         // elements that a ray of a row meets
 constexpr double start_elements = 5500.0;  // of the coarse solution, if the base mesh has fewer
 
@@ -88,7 +89,10 @@ void foresee_memory(const SceneFile& file, const radiosity::Enclosure& e, SceneS
     const double coarse = std::min(limit, std::max(start_elements, roots));
     const double per_row = std::min(coarse, crossings * static_cast<double>(file.solve.rays));
     const double per_element = element_bytes + element_band_bytes * bands;
-    const double rows = coarse * per_row * row_entry_bytes;
+    const bool moments = file.solve.radiance == radiosity::Radiance::linear &&
+                         !(file.solve.row_detail > 0.0) &&
+                         file.solve.start != radiosity::Start::single_zone;
+    const double rows = coarse * per_row * (row_entry_bytes + (moments ? moment_bytes : 0.0));
     double pixels = 0.0;
     for (const auto& camera : file.cameras)
         pixels = std::max(pixels, static_cast<double>(camera.width * camera.height));

@@ -33,7 +33,7 @@ class CoarseSolution {
 
     // Purpose: the error of what is gathered from this solution, given the error that a finer
     // gather finds in its H (`departure`: H − finer H, [element * bands + band]). To first order
-    //   δx = a (departure + S δx / c),  δH = S δx / c:                               (28)
+    //   δx = a (departure + S δx / c),  δH = S δx / c:                               (29)
     // the departure sent through the rows, once and again.
     std::vector<double> carried(const std::vector<double>& departure) const;
 

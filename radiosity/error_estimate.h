@@ -36,7 +36,7 @@ void estimate_errors(const LeafErrors& errors, const std::optional<View>& view, 
 // Purpose: the relative root mean square error of a pixel, by causes. Where noise and the coarse
 // solution's error have a sign, it is what the picture of them shows; departures of leaves add
 // their squares along a ray:
-//   e² = ⟨ε_g² + ε_c² + Σ_leaves (T w a δ)²⟩ / L²,  L the picture's mean radiance            (29)
+//   e² = ⟨ε_g² + ε_c² + Σ_leaves (T w a δ)²⟩ / L²,  L the picture's mean radiance            (30)
 // Direct light on surfaces is left out: pictures compute it anew.
 // Cost: 64 × 48 rays. Nothing where no ray of the view enters the scene, or all of them are dark.
 std::optional<ErrorParts> picture_error(const Solution& solution, const LeafErrors& errors,

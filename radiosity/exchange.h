@@ -72,8 +72,8 @@ struct ExchangeAreas {
 };
 
 // Σ_j S_ij x_j of every row, outside left out, for x given an element; with moments M for x linear
-// in each element, its gradients g those of `gradients`: Σ_j S_ij x_j + M_ij · g_j. Cost: one pass
-// over the entries, in parallel.
+// in each element, its gradients g those of `gradients`: Σ_j S_ij x_j + M_ij · g_j (31). Cost: one
+// pass over the entries, in parallel.
 std::vector<double> multiply(const ExchangeAreas& areas, const Elements& elements,
                              std::span<const double> x);
 
@@ -93,7 +93,7 @@ ExchangeAreas all_rows(ExchangeMethod method, const Discretization& discretizati
 double closure_error(const ExchangeAreas& areas, const Elements& elements, std::size_t band);
 
 // Σ_ij |S_ij − S_ji| / Σ_ij S_ij over the elements, outside left out [-]. Where columns stand for
-// several elements: estimated, from one of them drawn by its share, and from 4096 rows at most.
+// several elements: estimated, from one of them drawn by its share. From about 1024 rows at most.
 double reciprocity_error(const ExchangeAreas& areas, const Elements& elements);
 
 }  // namespace tyndall::radiosity

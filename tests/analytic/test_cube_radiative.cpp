@@ -184,8 +184,9 @@ TEST_CASE("Cube with a hot wall: finer elements, less error", "[solution]") {
         errors.push_back(std::sqrt(sum));
     }
     INFO("RMS errors: " << errors[0] << " " << errors[1] << " " << errors[2]);
-    // First order in the elements' size halves it; measured is a little better than that.
+    // Elements linear in their neighbours' means: second order, once they are as small as what they
+    // hold is smooth (1.75, 0.73, 0.18 % measured; 5.7, 2.4, 0.9 % with constant elements).
     CHECK(errors[1] < 0.6 * errors[0]);
-    CHECK(errors[2] < 0.6 * errors[1]);
-    CHECK(errors[2] < 0.02);
+    CHECK(errors[2] < 0.35 * errors[1]);
+    CHECK(errors[2] < 0.003);
 }

@@ -212,12 +212,14 @@ TEST_CASE("A closed room keeps the sun out; its own walls hide nothing inside", 
     CHECK(patch(light, e, {0.75, 0.5, 1.0}, {0, 0, -1}) == 0.0);  // in the lamp's own plane
 }
 
-TEST_CASE("Very near a lit ceiling", "[direct_light]") {
+TEST_CASE("Very near a lit ceiling, and before it in a thick medium", "[direct_light]") {
+    // 60: the part of the ceiling that lights a point is a fiftieth of it.
+    const double extinction = GENERATE(3.0, 20.0, 60.0);
     auto e = open_box({}, lit_ceiling);
     add_sides(e);
-    fill(e, 3.0);
+    fill(e, extinction);
     const DirectLight light(e);
-    for (const double gap : {1e-2, 1e-4, 1e-7}) {
+    for (const double gap : {0.2, 0.05, 1e-2, 1e-4, 1e-7}) {
         // An infinite plane in a medium: H = ½ E2(κ gap); the far rim's share is below e^{−1.5}/2…
         // so compare with integration in polar angle over the square, 1e-4 wanted.
         double h = 0.0;
@@ -229,9 +231,9 @@ TEST_CASE("Very near a lit ceiling", "[direct_light]") {
                 for (int part = 0; part < 8; ++part)
                     for (const auto& [l, wl] :
                          test::gauss(12, std::log(low) * (part + 1) / 8, std::log(low) * part / 8))
-                        h += wphi * wl * std::exp(l) * std::exp(-3.0 * gap / std::exp(l));
+                        h += wphi * wl * std::exp(l) * std::exp(-extinction * gap / std::exp(l));
             }
-        INFO(gap);
+        INFO(extinction << " " << gap);
         CHECK(zone(light, e, {0.5, 0.5, 1 - gap}) == Approx(h / (4 * pi)).epsilon(1e-4));
     }
 }
