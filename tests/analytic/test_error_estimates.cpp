@@ -3,11 +3,11 @@
 #include <cmath>
 
 #include "cli/scene_file.h"
-#include "support/catch.h"
 #include "radiosity/adaptive.h"
 #include "render/compare.h"
 #include "render/image_files.h"
 #include "render/line_of_sight.h"
+#include "support/catch.h"
 #include "support/solution_difference.h"
 
 using namespace tyndall;

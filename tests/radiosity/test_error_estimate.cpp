@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "support/catch.h"
 #include "radiosity/adaptive.h"
+#include "support/catch.h"
 #include "support/rooms.h"
 
 using namespace tyndall;

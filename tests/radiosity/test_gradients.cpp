@@ -1,7 +1,7 @@
 // Gradients of elements from their neighbours, and the moments of exchange areas they multiply.
-#include "support/catch.h"
 #include "radiosity/element_mesh.h"
 #include "radiosity/exchange_walked.h"
+#include "support/catch.h"
 #include "support/cube.h"
 #include "support/rooms.h"
 
