@@ -103,6 +103,7 @@ LeafErrors leaf_errors(const Enclosure& enclosure, ElementMesh& mesh, DirectRefi
     errors.zone_elements.resize(forest.zone_count());
     errors.patch_elements.resize(forest.patch_count());
     errors.patch_direct.resize(forest.patch_count());
+    direct.light_middles();
     const auto carried =
         coarse.carried(level_difference(mesh, direct, leaf_light, coarse, gathered));
     // Squares of what leaves hold too coarsely, of direct and of indirect light.
