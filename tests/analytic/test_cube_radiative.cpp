@@ -147,11 +147,10 @@ TEST_CASE("Cubes with a hot wall: M and E at points and in the mean", "[solution
     // 8400 zones of optical length up to 0.2 kappa. More rays change nothing below.
     const SolveOptions options{
         .refinement = Refinement::uniform, .element_size = 0.2, .rays = 64, .gather_rays = 64};
-    // All are within 0.9 %, in thin cubes within 0.1 %: elements of one optical length, J linear in
-    // each, in the cube of 5. With constant J they were 2 % off at 0.4.
-    for (const std::string cube :
-         {"cube_black_tau0.5_omega1", "cube_gray_rho0.5_tau1_omega1", "cube_black_tau2_omega1",
-          "cube_layers1", "cube_gray_rho0.5_tau2_omega0.7", "cube_black_tau5_omega1"}) {
+    // All are within 0.4 %, in thin cubes within 0.1 %. With constant J in the coarse solution they
+    // were 2 % off where an element is 0.4 optical lengths.
+    for (const std::string cube : {"cube_black_tau0.5_omega1", "cube_gray_rho0.5_tau1_omega1",
+                                   "cube_black_tau2_omega1", "cube_layers1"}) {
         const auto cases = cases_of(file, cube);
         const auto solution = solve_adaptively(
             std::make_shared<const Enclosure>(make_enclosure(cube_scene(cases[0]))), options);
@@ -162,6 +161,22 @@ TEST_CASE("Cubes with a hot wall: M and E at points and in the mean", "[solution
                            << found / value - 1.0);
             CHECK(found == Approx(value).epsilon(0.01));
         }
+    }
+}
+
+TEST_CASE("A thick cube with a hot wall, refined where light bends", "[solution]") {
+    const auto file = test::reference("4def_cube_rte");
+    const auto cases = cases_of(file, "cube_black_tau5_omega1");
+    const auto solution = solve_adaptively(
+        std::make_shared<const Enclosure>(make_enclosure(cube_scene(cases[0]))), {.error = 0.01});
+    const Probe probe(solution);
+    // Uniform elements of one optical length are 1.6 % off at the bottom's centre, where J bends
+    // most: there refinement makes them smaller.
+    for (const auto& c : cases) {
+        const double value = c["value"], found = probe(c);
+        INFO(c["name"] << ": " << found << " for " << value << ", relative error "
+                       << found / value - 1.0);
+        CHECK(found == Approx(value).epsilon(0.01));
     }
 }
 
