@@ -47,8 +47,9 @@ LitPatches::LitPatches(const Enclosure& enclosure, const Forest& forest, const F
         if (node == none) continue;
         roots_.push_back(node);
         normals_.push_back(normal_of(forest, patch));
-        starts_.push_back(
-            mesh::start_on(enclosure.mesh, FacetId(root / 2), root % 2 ? Side::back : Side::front));
+        const auto start =
+            mesh::start_on(enclosure.mesh, FacetId(root / 2), root % 2 ? Side::back : Side::front);
+        fronts_.push_back({start, {enclosure.mesh, start.tet}});
         for (std::size_t b = 0; b < bands_; ++b)
             power += nodes_[node].area * radiance_[node * bands_ + b].at(nodes_[node].centroid) /
                      double(bands_);
@@ -90,10 +91,14 @@ std::uint32_t LitPatches::add(const Forest& forest, const Fields& lit, PatchId p
 class LitPatches::Visit {
   public:
     Visit(const LitPatches& lit, const Receiver& receiver, std::span<double> incident)
-        : lit_(lit), receiver_(receiver), incident_(incident), depths_(incident.size()) {}
+        : lit_(lit),
+          receiver_(receiver),
+          incident_(incident),
+          depths_(incident.size()),
+          here_{{receiver.tet}, {lit.enclosure_.mesh, receiver.tet}} {}
 
     void tree(std::size_t root) {
-        start_ = lit_.starts_[root];
+        front_ = &lit_.fronts_[root];
         node(lit_.roots_[root]);
     }
 
@@ -183,14 +188,16 @@ class LitPatches::Visit {
     // Shadow rays leave out a bit at both ends; a wall that close is met by walking.
     bool blocked(Direction path) const {
         const double length = glm::length(path), bit = 2.0 * lit_.occlusion_.end_gap();
-        const auto meets_wall = [&](Point from, Direction way, mesh::WalkStart start) {
-            const mesh::Ray ray{from, way / length, std::min(length, bit)};
-            return mesh::walk(lit_.enclosure_.mesh, ray, start, [](TetId, double, double) {
+        const double step = std::min(length, bit);
+        const auto meets_wall = [&](Point from, Direction way, const Front& front) {
+            if (front.planes.keep(from, (step / length) * way)) return false;
+            const mesh::Ray ray{from, way / length, step};
+            return mesh::walk(lit_.enclosure_.mesh, ray, front.start, [](TetId, double, double) {
                        return true;
                    }).arrival == mesh::Arrival::struck;
         };
-        return meets_wall(receiver_.x, path, {receiver_.tet}) ||
-               meets_wall(receiver_.x + path, -path, start_) ||
+        return meets_wall(receiver_.x, path, here_) ||
+               meets_wall(receiver_.x + path, -path, *front_) ||
                lit_.occlusion_.blocked(receiver_.x, path);
     }
 
@@ -208,7 +215,8 @@ class LitPatches::Visit {
     std::span<double> incident_;
     std::vector<double> depths_;
     std::vector<Point> above_;
-    mesh::WalkStart start_;  // of the facet side whose tree is visited
+    Front here_;                    // the receiver's own tet
+    const Front* front_ = nullptr;  // of the tree that is visited
 };
 
 void LitPatches::gather(const Receiver& receiver, std::span<double> incident) const {

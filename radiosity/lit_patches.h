@@ -16,6 +16,7 @@
 #include <span>
 #include <vector>
 
+#include "mesh/tet_planes.h"
 #include "radiosity/fields.h"
 #include "radiosity/mean_transmittance.h"
 #include "radiosity/occlusion.h"
@@ -52,8 +53,13 @@ class LitPatches {
     std::vector<Affine> radiance_;  // [node * bands + band]; constant on inner nodes
     std::vector<std::uint32_t> roots_;
     std::vector<Direction> normals_;  // of each root
-    std::vector<mesh::WalkStart> starts_;
-    double typical_ = 0.0;  // Σ r̄ A over the area of all surfaces [W/m^2/sr]
+    // The tet that the front of a root looks into: where walks to its points end.
+    struct Front {
+        mesh::WalkStart start;
+        mesh::TetPlanes planes;
+    };
+    std::vector<Front> fronts_;  // of each root
+    double typical_ = 0.0;       // Σ r̄ A over the area of all surfaces [W/m^2/sr]
     OpticalDepth depth_;
     Occlusion occlusion_;
 };

@@ -51,7 +51,7 @@ TEST_CASE("A room on the user's own tetrahedra is as bright as on TetGen's") {
     const auto solved = [](const std::string& override) {
         auto file = cli::read_scene_file(folder + "room.toml", {override});
         file.solve.refinement = Refinement::none;
-        file.solve.element_size = 0.3;
+        file.solve.element_size = 0.4;
         file.solve.max_elements = 40000;
         file.solve.rays = 128;
         file.solve.gather_rays = 16;

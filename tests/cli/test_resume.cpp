@@ -118,11 +118,11 @@ struct Whole {
 TEST_CASE("a run that is killed goes on from its last finished pass, whenever that is") {
     const Whole whole;
     std::size_t with_pass = 0;
-    for (int k = 1; k <= 8; ++k) {
+    for (int k = 1; k <= 5; ++k) {
         CAPTURE(k);
         const std::string out = "killed" + std::to_string(k);
         test::Running run(whole.place.path, arguments(out));
-        std::this_thread::sleep_for(k / 8.5 * whole.time);
+        std::this_thread::sleep_for(k / 5.5 * whole.time);
         run.signal(SIGKILL);
         run.wait();
         const Left left(whole.place, out);
@@ -181,11 +181,11 @@ TEST_CASE("a run that is killed while it writes leaves no half file under its na
 
 TEST_CASE("Ctrl-C at any moment leaves a valid solution, from which the run goes on") {
     const Whole whole;
-    for (int k = 1; k <= 6; ++k) {
+    for (int k = 1; k <= 4; ++k) {
         CAPTURE(k);
         const std::string out = "stopped" + std::to_string(k);
         test::Running run(whole.place.path, arguments(out));
-        std::this_thread::sleep_for(k / 6.5 * whole.time);
+        std::this_thread::sleep_for(k / 4.5 * whole.time);
         run.signal_group(SIGINT);
         const int code = test::exit_code(run.wait());
         const Left left(whole.place, out);

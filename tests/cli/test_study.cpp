@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// A lamp over haze; a run of it takes a tenth of a second.
+// A lamp over haze; a run of it takes half a second.
 constexpr const char* scene = R"(format = 1
 material = [ { name = "grey", reflectance = 0.5 },
              { name = "lamp", reflectance = 0.0, emission = 100.0 } ]
@@ -33,7 +33,9 @@ render   = { samples = 4 }
 )";
 
 struct Workplace : test::Workplace {
-    Workplace() : test::Workplace("study") { write("scene.toml", scene); }
+    explicit Workplace(const std::string& name = "study") : test::Workplace(name) {
+        write("scene.toml", scene);
+    }
     // When the run was made; it is made anew where this changes.
     fs::file_time_type made(const std::string& slug) const {
         return fs::last_write_time(path / "out/runs" / slug / "solution.vtkhdf");
@@ -45,7 +47,7 @@ struct Workplace : test::Workplace {
 };
 
 const std::string two_runs = R"(scene = "scene.toml"
-reference = { "solve.element_size" = 0.5 }
+reference = { "solve.refinement" = "uniform", "solve.element_size" = 0.5 }
 measure = ["picture", "single_scattering", "surfaces", "media", "probe"]
 errors = [0.5]
 probe = { count = 8, rays = 64 }
@@ -57,11 +59,17 @@ probe = { count = 8, rays = 64 }
 }  // namespace
 
 TEST_CASE("A study runs its matrix, measures, plots, and keeps what is done") {
-    const Workplace place;
-    place.write("study.toml", two_runs);
-    const auto first = place.run("study study.toml -o out --json");
+    // Run once; what each section goes on with is a copy.
+    static const Workplace done;
+    static const auto first = [] {
+        done.write("study.toml", two_runs);
+        return done.run("study study.toml -o out --json");
+    }();
     INFO(first.err);
     REQUIRE(first.code == 0);
+    const Workplace place("study_copy");
+    fs::copy(done.path, place.path,
+             fs::copy_options::recursive | fs::copy_options::overwrite_existing);
     const auto rows = nlohmann::json::parse(first.out).at("rows");
     REQUIRE(rows.size() == 2);
     CHECK(rows[0].at("solve.element_size") == "1.4");
@@ -130,7 +138,8 @@ TEST_CASE("A study runs its matrix, measures, plots, and keeps what is done") {
             place.run("probe out/references/reference --points points.csv -o values.csv").code ==
             0);
         auto filed = two_runs;
-        const std::string finer = "{ \"solve.element_size\" = 0.5 }";
+        const std::string finer =
+            "{ \"solve.refinement\" = \"uniform\", \"solve.element_size\" = 0.5 }";
         filed.replace(
             filed.find(finer), finer.size(),
             "{ picture = \"out/references/reference/image.exr\", single_scattering = "
@@ -216,7 +225,7 @@ axes = { "solve.rays" = [16] }
 TEST_CASE("A study that is stopped or killed goes on where it was") {
     const Workplace place;
     auto text = two_runs;
-    text.replace(text.find("[1.4, 0.8]"), 10, "[1.4, 0.8, 0.72, 0.65, 0.6, 0.55]");
+    text.replace(text.find("[1.4, 0.8]"), 10, "[1.4, 0.8, 0.7, 0.6]");
     place.write("study.toml", text);
     const int signal = GENERATE(SIGINT, SIGKILL);
     test::Running child(place.path, {"study", "study.toml", "-o", "out", "--quiet"});
@@ -234,6 +243,6 @@ TEST_CASE("A study that is stopped or killed goes on where it was") {
     const auto outcome = place.run("study study.toml -o out --quiet");
     INFO(outcome.err);
     CHECK(outcome.code == 0);
-    CHECK(place.rows() == 6);
+    CHECK(place.rows() == 4);
     CHECK(place.made("refinement-uniform_element_size-1.4") == before);
 }
