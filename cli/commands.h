@@ -66,6 +66,9 @@ void add_render_command(Shell& shell);
 // probe_command.cpp
 void add_probe_command(Shell& shell);
 
+// exchange_command.cpp
+void add_exchange_command(Shell& shell);
+
 // check_command.cpp
 void add_check_command(Shell& shell);
 

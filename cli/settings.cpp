@@ -6,12 +6,15 @@
 #include <charconv>
 #include <cmath>
 
+#include "radiosity/exchange_methods.h"
 #include "radiosity/indicators.h"
 
 namespace tyndall::cli {
 namespace {
 
-constexpr std::array<std::string_view, 1> exchange_names{"walked"};
+constexpr std::array<std::string_view, 3> point_set_names{"sobol", "independent", "stratified"};
+constexpr std::array<std::string_view, 2> projection_names{"z_buffer", "walked"};
+constexpr std::array<std::string_view, 3> smoothing_names{"none", "least_squares", "scaling"};
 constexpr std::array<std::string_view, 1> solver_names{"gmres"};
 constexpr std::array<std::string_view, 5> refinement_names{"none", "uniform", "adaptive", "view",
                                                            "aligned"};
@@ -19,6 +22,12 @@ constexpr std::array<std::string_view, 4> start_names{"single-zone", "base", "un
 constexpr std::array<std::string_view, 2> radiance_names{"constant", "linear"};
 constexpr std::array<std::string_view, 2> direct_light_names{"closed_form", "rows"};
 constexpr std::array<std::string_view, 1> render_method_names{"line_of_sight"};
+
+std::vector<std::string_view> exchange_names() {
+    std::vector<std::string_view> names;
+    for (const auto& method : radiosity::exchange_methods()) names.push_back(method.name);
+    return names;
+}
 
 std::vector<std::string_view> indicator_names() {
     std::vector<std::string_view> names;
@@ -89,7 +98,25 @@ constexpr Setting solve_settings[] = {
     {{"gather_rays", "whole number", "256", "walked from each point of a surface in the last, fine gather; a quarter as many from points of zones"},
      [](T t, K k, Settings& s) { s.solve.gather_rays = t.count(k, 1, 1'000'000); }},
     {{"exchange", "name of a method", "\"walked\"", "how exchange areas are computed"},
-     [](T t, K k, Settings& s) { s.solve.exchange = exchange_names[t.choice(k, exchange_names)]; }},
+     [](T t, K k, Settings& s) { const auto names = exchange_names(); s.solve.exchange = names[t.choice(k, names)]; }},
+    {{"point_set", "\"sobol\", \"independent\" or \"stratified\"", "\"sobol\"", "how rays' starts and directions are spread in walked rows"},
+     [](T t, K k, Settings& s) { s.solve.exchange_settings.point_set = static_cast<radiosity::PointSetKind>(t.choice(k, point_set_names)); }},
+    {{"exchange_tolerance", "number above 0 and below 1", "1e-6", "relative error of exchange areas, of the methods that can keep one"},
+     [](T t, K k, Settings& s) { s.solve.exchange_settings.tolerance = t.number(k, {0.0, 1.0, true, true}); }},
+    {{"resolution", "whole number", "64", "pixels along the edge of a hemi-cube, a full cube or a single plane"},
+     [](T t, K k, Settings& s) { s.solve.exchange_settings.resolution = t.count(k, 2, 4096); }},
+    {{"centres", "whole number", "1", "points of an element on which such a cube stands"},
+     [](T t, K k, Settings& s) { s.solve.exchange_settings.centres = t.count(k, 1, 4096); }},
+    {{"random_offsets", "true or false", "false", "whether cubes stand at random points and turned, each in its own way"},
+     [](T t, K k, Settings& s) { s.solve.exchange_settings.random_offsets = t.flag(k); }},
+    {{"projection", "\"z_buffer\" or \"walked\"", "\"z_buffer\"", "how a cube's pixel finds what it sees: everything is drawn into buffers, or a ray is walked through the pixel"},
+     [](T t, K k, Settings& s) { s.solve.exchange_settings.projection = static_cast<radiosity::Projection>(t.choice(k, projection_names)); }},
+    {{"uniform_transmittance", "true or false", "false", "contour_integration through a medium: times one transmittance a pair, instead of a refusal"},
+     [](T t, K k, Settings& s) { s.solve.exchange_settings.uniform_transmittance = t.flag(k); }},
+    {{"interaction_radius", "number [m]", "0", "pairs farther apart are left out and what they exchange is put back nearer by; 0: all pairs count"},
+     [](T t, K k, Settings& s) { s.solve.exchange_settings.interaction_radius = t.number(k, {0.0, 1e9}); }},
+    {{"smoothing", "\"none\", \"least_squares\" or \"scaling\"", "\"none\"", "how rows are changed so that reciprocity and closure both hold"},
+     [](T t, K k, Settings& s) { s.solve.exchange_settings.smoothing = static_cast<radiosity::Smoothing>(t.choice(k, smoothing_names)); }},
     {{"solver", "name of a method", "\"gmres\"", "how the linear system is solved"},
      [](T t, K k, Settings& s) { s.solve.solver = solver_names[t.choice(k, solver_names)]; }},
     {{"solver_tolerance", "number above 0 and below 1", "1e-6", "relative residual"},

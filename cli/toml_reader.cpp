@@ -173,6 +173,13 @@ std::string TableReader::text(std::string_view key) const {
     return *value;
 }
 
+bool TableReader::flag(std::string_view key) const {
+    const toml::node& found = node(key);
+    const auto value = found.value_exact<bool>();
+    if (!value) fail_type(found, what(key), "true or false");
+    return *value;
+}
+
 std::size_t TableReader::choice_at(const toml::node& node, const std::string& what,
                                    std::span<const std::string_view> names) const {
     const auto value = node.value_exact<std::string>();

@@ -75,6 +75,7 @@ class TableReader {
     double number(std::string_view key, const Range& range, double fallback) const;
     std::size_t count(std::string_view key, std::size_t low, std::size_t high) const;
     std::string text(std::string_view key) const;
+    bool flag(std::string_view key) const;  // true or false
     // The index of the text among `names`.
     std::size_t choice(std::string_view key, std::span<const std::string_view> names) const;
     // The names in an array, each one of `names`.

@@ -10,6 +10,7 @@
 #include "mesh/input_error.h"
 #include "radiosity/balance.h"
 #include "radiosity/error_estimate.h"
+#include "radiosity/exchange_methods.h"
 #include "radiosity/incident_lit.h"
 #include "radiosity/leaf_light.h"
 #include "radiosity/resources.h"
@@ -369,9 +370,11 @@ Solution Loop::collect(const CoarseSolution& coarse, Field&& indirect) {
 Solution solve_adaptively(std::shared_ptr<const Enclosure> enclosure, const SolveOptions& options,
                           const std::optional<View>& view, const ProgressCallback& progress,
                           const Passes& passes) {
-    if (options.exchange != "walked")
-        throw mesh::InputError(fmt::format("there is no exchange method \"{}\". Choose \"walked\".",
-                                           options.exchange));
+    if (!exchange_method(options.exchange).detail && options.row_detail > 0.0)
+        throw mesh::InputError(
+            fmt::format("level of detail in rows (row_detail) is made by walking, not by \"{}\". "
+                        "Set row_detail to 0, or exchange to \"walked\".",
+                        options.exchange));
     if (options.solver != "gmres")
         throw mesh::InputError(
             fmt::format("there is no solver \"{}\". Choose \"gmres\".", options.solver));

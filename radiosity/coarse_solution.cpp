@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "radiosity/exchange_walked.h"
+#include "radiosity/exchange_methods.h"
 
 namespace tyndall::radiosity {
 namespace {
@@ -35,6 +35,7 @@ CoarseSolution::CoarseSolution(const Enclosure& enclosure, const Forest& forest,
 CoarseSolution::CoarseSolution(const Enclosure& enclosure, const Forest& forest, Elements elements,
                                const SolveOptions& options, const ProgressCallback& progress)
     : enclosure_(enclosure), forest_(forest), options_(options), elements_(std::move(elements)) {
+    const NamedExchangeMethod& method = exchange_method(options.exchange);
     for (std::size_t band = 0; band < enclosure.bands; ++band) {
         std::size_t same = 0;
         while (same < band && !same_extinction(enclosure, same, band)) ++same;
@@ -43,14 +44,16 @@ CoarseSolution::CoarseSolution(const Enclosure& enclosure, const Forest& forest,
             continue;
         }
         matrix_.push_back(areas_.size());
-        areas_.push_back(all_rows(exchange_walked, {enclosure, forest, elements_},
-                                  {.band = band,
-                                   .rays = options.rays,
-                                   .seed = options.seed,
-                                   .detail = options.row_detail,
-                                   .radiance = options.radiance,
-                                   .progress = progress,
-                                   .lost_rays = &lost_rays_}));
+        areas_.push_back(
+            all_rows(method.method, {enclosure, forest, elements_},
+                     {.band = band,
+                      .rays = options.rays,
+                      .seed = options.seed,
+                      .settings = options.exchange_settings,
+                      .detail = options.row_detail,
+                      .radiance = method.moments ? options.radiance : Radiance::constant,
+                      .progress = progress,
+                      .lost_rays = &lost_rays_}));
         rays_ += elements_.size() * options.rays;
     }
 }

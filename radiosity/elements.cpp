@@ -17,6 +17,14 @@ std::uint32_t medium_of(const Enclosure& enclosure, const Forest& forest, ZoneId
     return enclosure.solid(tet) ? none : enclosure.medium_of(tet);
 }
 
+std::string name_of(const Enclosure& enclosure, const Forest& forest, const Elements& elements,
+                    ElementId element) {
+    if (element.value == elements.outside()) return "outside";
+    if (elements.is_patch(element.value))
+        return enclosure.sides[side_of(enclosure, forest, elements.patches[element.value])].name;
+    return enclosure.media[medium_of(enclosure, forest, elements.zone(element.value))].name;
+}
+
 Direction normal_of(const Forest& forest, PatchId patch) {
     const auto& c = forest[patch].corners;
     const Point a = forest.point(c[0]);

@@ -79,6 +79,9 @@ struct OpticalTags {
 std::uint32_t side_of(const Enclosure& enclosure, const Forest& forest, PatchId patch);
 // Medium of a zone; none in empty space and in solids.
 std::uint32_t medium_of(const Enclosure& enclosure, const Forest& forest, ZoneId zone);
+// What messages call an element: the side or medium it belongs to; "outside" for that.
+std::string name_of(const Enclosure& enclosure, const Forest& forest, const Elements& elements,
+                    ElementId element);
 // Unit normal of a patch, away from the surface.
 Direction normal_of(const Forest& forest, PatchId patch);
 

@@ -26,6 +26,8 @@ struct ExchangeOptions {
     std::size_t band = 0;    // whose extinction to use
     std::size_t rays = 256;  // a row
     std::uint64_t seed = 1;
+    ExchangeSettings settings{};
+    std::span<const ElementId> columns{};  // pairs with others need not be computed; empty: all are
     double detail = 0.0;  // theta: a zone whose longest edge is h stands for the elements below it
                           // from distance t on where h ≤ theta t sqrt(4 pi / rays), a patch from
                           // eight times that; 0: never [-]

@@ -47,10 +47,47 @@ enum class Radiance {
 struct JudgedElement;
 using Indicator = std::function<double(const JudgedElement&)>;
 
+// How the places and directions of sampled methods are spread.
+enum class PointSetKind {
+    sobol,        // Sobol's points, scrambled after Owen
+    independent,  // each for itself
+    stratified,   // jittered: one in each cell of a grid as far as their number allows
+};
+
+// How the methods that project onto cubes find what a pixel sees.
+enum class Projection {
+    z_buffer,  // surfaces into an item buffer, zones into one with depths
+    walked,    // a walk through the pixel's middle
+};
+
+// How reciprocity and closure are made to hold together after the rows are made.
+enum class Smoothing {
+    none,
+    least_squares,  // the least change that does it, weighed by the entries
+    scaling,        // symmetric factors of rows and columns
+};
+
+// What the methods for exchange areas can be told, beside rays and seed; each reads what it has a
+// use for.
+struct ExchangeSettings {
+    PointSetKind point_set = PointSetKind::sobol;
+    double tolerance = 1e-6;  // relative error of an exchange area, where a method can keep one [-]
+    std::size_t resolution = 64;  // pixels along an edge of a cube, or of the single plane
+    std::size_t centres = 1;      // cubes an element
+    bool random_offsets = false;  // cubes stand and turn by chance, not all alike
+    Projection projection = Projection::z_buffer;
+    bool uniform_transmittance = false;  // one transmittance a pair, where a method needs that
+    double interaction_radius = 0.0;     // pairs farther apart are left out; 0: none [m]
+    Smoothing smoothing = Smoothing::none;
+
+    bool operator==(const ExchangeSettings&) const = default;
+};
+
 struct SolveOptions {
     double error = 0.01;  // goal: estimated relative error of the picture, or of the solution [-]
-    std::string exchange = "walked";  // method for exchange areas
-    std::string solver = "gmres";     // method for the linear system
+    std::string exchange = "walked";  // method for exchange areas (exchange_methods.h)
+    ExchangeSettings exchange_settings{};
+    std::string solver = "gmres";  // method for the linear system
     Start start = Start::uniform;
     Refinement refinement = Refinement::aligned;
     // By which errors leaves are bisected, by name (indicators.h), from Refinement::adaptive on.

@@ -1,0 +1,158 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands.h"
+#include "cli/job.h"
+#include "cli/suggestion.h"
+#include "mesh/file_bytes.h"
+#include "mesh/input_error.h"
+#include "radiosity/exchange_table.h"
+
+namespace tyndall::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using radiosity::ExchangeTable;
+
+struct PairOptions {
+    std::string scene, method, out;
+    std::vector<std::string> from, to;
+    std::optional<double> tolerance;
+    std::optional<std::size_t> rays;
+};
+
+// Whole sides and media are few: many more rays than an element of a solve has.
+constexpr std::size_t default_rays = 65536;
+
+// The participants that a name means: itself, its two sides, or all sides of its parts.
+std::vector<std::string> meant(const std::string& name, const std::vector<std::string>& known) {
+    std::vector<std::string> found;
+    for (const auto& candidate : known)
+        if (candidate == name || candidate == name + "+" || candidate == name + "-" ||
+            candidate.starts_with(name + "."))
+            found.push_back(candidate);
+    if (found.empty())
+        throw mesh::InputError(fmt::format("nothing here that exchanges light is called \"{}\". {}",
+                                           name, suggest(name, known)));
+    return found;
+}
+
+std::vector<std::string> chosen(const std::vector<std::string>& names,
+                                const std::vector<std::string>& known) {
+    if (names.empty()) return known;
+    std::vector<std::string> all;
+    for (const auto& name : names)
+        for (const auto& one : meant(name, known))
+            if (std::ranges::find(all, one) == all.end()) all.push_back(one);
+    return all;
+}
+
+radiosity::ExchangeOptions options_of(const PairOptions& given, const SceneFile& file,
+                                      const CommonFlags& flags) {
+    radiosity::ExchangeOptions options;
+    const bool rays_set = std::ranges::any_of(
+        flags.settings, [](const Setting& setting) { return setting.key == "solve.rays"; });
+    options.rays = given.rays.value_or(rays_set ? file.solve.rays : default_rays);
+    options.seed = file.solve.seed;
+    options.settings = file.solve.exchange_settings;
+    if (given.tolerance) options.settings.tolerance = *given.tolerance;
+    return options;
+}
+
+std::vector<std::string> area_columns(std::size_t bands) {
+    if (bands == 1) return {"exchange_area"};
+    std::vector<std::string> columns;
+    for (std::size_t b = 0; b < bands; ++b) columns.push_back(fmt::format("exchange_area_{}", b));
+    return columns;
+}
+
+std::string as_csv(const ExchangeTable& table, std::size_t bands) {
+    auto text = fmt::format("from,to,{}\n", fmt::join(area_columns(bands), ","));
+    for (const auto& entry : table.entries)
+        fmt::format_to(std::back_inserter(text), "{},{},{}\n", entry.from, entry.to,
+                       fmt::join(entry.exchange_area, ","));
+    return text;
+}
+
+Json as_json(const ExchangeTable& table, const std::string& method) {
+    Json entries = Json::array();
+    for (const auto& entry : table.entries)
+        entries.push_back(
+            {{"from", entry.from}, {"to", entry.to}, {"exchange_area", entry.exchange_area}});
+    const auto known = [](double value) { return std::isnan(value) ? Json() : Json(value); };
+    return {{"method", method},
+            {"entries", entries},
+            {"closure_error", known(table.closure_error)},
+            {"reciprocity_error", known(table.reciprocity_error)},
+            {"lost_rays", table.lost_rays}};
+}
+
+std::string checks(const ExchangeTable& table) {
+    const auto text = [](double value) {
+        return std::isnan(value) ? std::string("not known from these pairs")
+                                 : fmt::format("{:.2g}", value);
+    };
+    return fmt::format("closure error     {}\nreciprocity error {}\n", text(table.closure_error),
+                       text(table.reciprocity_error));
+}
+
+int exchange(const PairOptions& given, const CommonFlags& flags) {
+    SceneFile file = load_scene(given.scene, flags);
+    if (!given.method.empty()) file.solve.exchange = given.method;
+    const auto& method = radiosity::exchange_method(file.solve.exchange);
+    ProgressLine progress(flags);
+    const auto enclosure = mesh_scene(file, progress);
+    const auto known = radiosity::exchange_names(*enclosure);
+    auto options = options_of(given, file, flags);
+    options.progress = progress.callback();
+    const auto table = radiosity::exchange_table(
+        *enclosure, method, options, chosen(given.from, known), chosen(given.to, known));
+    progress.clear();
+    const auto csv = as_csv(table, enclosure->bands);
+    if (!given.out.empty()) mesh::write_file(given.out, csv);
+    if (flags.json)
+        write_output(as_json(table, file.solve.exchange).dump(2) + "\n");
+    else if (given.out.empty())
+        write_output(csv);
+    else if (!flags.quiet)
+        write_output(fmt::format("wrote    {} ({} pairs)\n", given.out, table.entries.size()));
+    if (!flags.quiet && !flags.json) fmt::print(stderr, "{}", checks(table));
+    return 0;
+}
+
+}  // namespace
+
+void add_exchange_command(Shell& shell) {
+    const auto options = std::make_shared<PairOptions>();
+    auto& command = shell.add_command(
+        "exchange", "Exchange areas between sides, media and outside",
+        R"(  tyndall exchange room.toml
+  tyndall exchange room.toml --method contour_integration --from lamp --to room.floor
+  tyndall exchange room.toml --method hemicube --set solve.resolution=256 -o areas.csv)",
+        [options](const CommonFlags& flags) { return exchange(*options, flags); });
+    add_seed_flag(command, shell.flags());
+    add_set_flag(command, shell.flags());
+    command.add_option("SCENE", options->scene, "Scene file")->required();
+    command.add_option("--method", options->method,
+                       "How exchange areas are computed; solve.exchange if not given");
+    command.add_option("--from", options->from,
+                       "A side (floor+), a surface (floor: its sides), a medium, or outside; "
+                       "repeatable; all if not given");
+    command.add_option("--to", options->to, "As --from");
+    command
+        .add_option("--tolerance", options->tolerance,
+                    "Relative, for the methods that have one; 1e-6 if not given")
+        ->check(CLI::Range(1e-14, 0.5));
+    command
+        .add_option("--rays", options->rays,
+                    "From each side and medium, for the methods that walk; 65536 if not given")
+        ->check(CLI::Range(std::size_t(1), std::size_t(1) << 24));
+    command.add_option("-o,--output", options->out, "CSV to write; else standard output");
+}
+
+}  // namespace tyndall::cli

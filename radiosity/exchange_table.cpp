@@ -1,0 +1,156 @@
+#include "radiosity/exchange_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "radiosity/start_elements.h"
+
+namespace tyndall::radiosity {
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+class Table {
+  public:
+    Table(const Enclosure& enclosure, const NamedExchangeMethod& method,
+          const ExchangeOptions& options)
+        : enclosure_(enclosure),
+          forest_(enclosure.mesh),
+          elements_(start_elements(enclosure, forest_, Start::single_zone)),
+          method_(method),
+          options_(options) {
+        for (std::size_t i = 0; i <= elements_.size(); ++i)
+            members_[name_of(enclosure, forest_, elements_, ElementId(i))].push_back(ElementId(i));
+    }
+
+    ExchangeTable make(const std::vector<std::string>& from, const std::vector<std::string>& to) {
+        options_.lost_rays = &lost_;
+        const bool from_outside = std::ranges::find(from, "outside") != from.end();
+        auto rows = elements_of(from);
+        std::erase(rows, ElementId(elements_.outside()));
+        const auto columns = elements_of(to);
+        for (std::size_t band = 0; band < enclosure_.bands; ++band) {
+            add_rows(rows, columns, band, false);
+            // Outside has no row: what the others send there comes back.
+            auto others = columns;
+            std::erase(others, ElementId(elements_.outside()));
+            if (from_outside) add_rows(others, {ElementId(elements_.outside())}, band, true);
+        }
+        ExchangeTable table;
+        for (const auto& a : from)
+            for (const auto& b : to)
+                if (a != "outside" || b != "outside") table.entries.push_back({a, b, sum(a, b)});
+        table.closure_error = closure_error(from, to);
+        table.reciprocity_error = reciprocity_error(table);
+        table.lost_rays = lost_;
+        return table;
+    }
+
+  private:
+    using Pair = std::pair<std::string, std::string>;
+
+    std::vector<ElementId> elements_of(const std::vector<std::string>& names) const {
+        std::vector<ElementId> result;
+        for (const auto& name : names) {
+            const auto& members = members_.at(name);
+            result.insert(result.end(), members.begin(), members.end());
+        }
+        std::ranges::sort(result);
+        return result;
+    }
+
+    std::string name(ElementId element) const {
+        return name_of(enclosure_, forest_, elements_, element);
+    }
+
+    void add_rows(const std::vector<ElementId>& rows, const std::vector<ElementId>& columns,
+                  std::size_t band, bool turned) {
+        options_.band = band;
+        options_.columns =
+            columns.size() <= elements_.size() ? std::span(columns) : std::span<const ElementId>();
+        method_.method({enclosure_, forest_, elements_}, rows, options_, [&](const Row& row) {
+            for (std::size_t k = 0; k < row.columns.size(); ++k) {
+                const ElementId column(row.columns[k]);
+                if (!std::ranges::binary_search(columns, column)) continue;
+                Pair pair{name(row.receiver), name(column)};
+                if (turned) std::swap(pair.first, pair.second);
+                Spectrum& sums = sums_[pair];
+                sums.resize(enclosure_.bands);
+                sums[band] += row.exchange_areas[k];
+            }
+        });
+    }
+
+    Spectrum sum(const std::string& from, const std::string& to) const {
+        const auto found = sums_.find({from, to});
+        return found == sums_.end() ? Spectrum(enclosure_.bands, 0.0) : found->second;
+    }
+
+    double closure_error(const std::vector<std::string>& from,
+                         const std::vector<std::string>& to) const {
+        if (to.size() < members_.size()) return unknown;
+        double worst = 0.0;
+        for (const auto& a : from) {
+            if (a == "outside") continue;
+            Spectrum left(enclosure_.bands);
+            for (const ElementId i : members_.at(a))
+                for (std::size_t b = 0; b < enclosure_.bands; ++b)
+                    left[b] += elements_.capacity[i.value * enclosure_.bands + b];
+            const Spectrum capacity = left;
+            for (const auto& c : to) {
+                const Spectrum area = sum(a, c);
+                for (std::size_t b = 0; b < enclosure_.bands; ++b) left[b] -= area[b];
+            }
+            for (std::size_t b = 0; b < enclosure_.bands; ++b)
+                if (capacity[b] > 0.0) worst = std::max(worst, std::abs(left[b]) / capacity[b]);
+        }
+        return worst;
+    }
+
+    double reciprocity_error(const ExchangeTable& table) const {
+        double difference = 0.0, total = 0.0;
+        for (const auto& entry : table.entries) {
+            if (entry.from == entry.to || entry.from == "outside" || entry.to == "outside")
+                continue;
+            const auto back = sums_.find({entry.to, entry.from});
+            if (back == sums_.end()) continue;
+            for (std::size_t b = 0; b < enclosure_.bands; ++b) {
+                difference += std::abs(entry.exchange_area[b] - back->second[b]);
+                total += entry.exchange_area[b];
+            }
+        }
+        return total > 0.0 ? difference / total : unknown;
+    }
+
+    const Enclosure& enclosure_;
+    Forest forest_;
+    Elements elements_;
+    const NamedExchangeMethod& method_;
+    ExchangeOptions options_;
+    std::map<std::string, std::vector<ElementId>> members_;  // elements of each name
+    std::map<Pair, Spectrum> sums_;
+    std::atomic<std::size_t> lost_ = 0;
+};
+
+}  // namespace
+
+std::vector<std::string> exchange_names(const Enclosure& enclosure) {
+    const Forest forest(enclosure.mesh);
+    const Elements elements = start_elements(enclosure, forest, Start::single_zone);
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i <= elements.size(); ++i) {
+        const auto name = name_of(enclosure, forest, elements, ElementId(i));
+        if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+    }
+    return names;
+}
+
+ExchangeTable exchange_table(const Enclosure& enclosure, const NamedExchangeMethod& method,
+                             const ExchangeOptions& options, const std::vector<std::string>& from,
+                             const std::vector<std::string>& to) {
+    return Table(enclosure, method, options).make(from, to);
+}
+
+}  // namespace tyndall::radiosity

@@ -1,0 +1,36 @@
+// Exchange areas between whole sides, media and outside: what a scene's surfaces and volumes
+// exchange as they are, before any mesh.
+#pragma once
+
+#include <string>
+
+#include "radiosity/exchange_methods.h"
+
+namespace tyndall::radiosity {
+
+struct ExchangeTable {
+    struct Entry {
+        std::string from, to;
+        Spectrum exchange_area;  // one value a band [m^2]
+    };
+    std::vector<Entry> entries;
+    // max |Σ_to S − c| / c over whole sides and media, and Σ|S_ij − S_ji| / Σ S_ij; NaN where the
+    // pairs asked for do not tell [-].
+    double closure_error, reciprocity_error;
+    std::size_t lost_rays = 0;
+};
+
+// The names that take part: sides that light can reach, media that are somewhere, "outside".
+std::vector<std::string> exchange_names(const Enclosure& enclosure);
+
+// Purpose: the exchange area of every ordered pair of `from` and `to` (exchange_names), sums over
+//   the flat pieces of a side and the connected parts of a medium (Start::single_zone). That from
+//   outside is that to outside, by reciprocity; outside to outside is left out.
+// Errors: what the method throws for a pair that it cannot do.
+// Cost: the method's, of the rows of `from` alone, and the columns of `to` where it can leave out
+//   others.
+ExchangeTable exchange_table(const Enclosure& enclosure, const NamedExchangeMethod& method,
+                             const ExchangeOptions& options, const std::vector<std::string>& from,
+                             const std::vector<std::string>& to);
+
+}  // namespace tyndall::radiosity
