@@ -6,13 +6,21 @@
 #include <algorithm>
 
 #include "mesh/input_error.h"
+#include "radiosity/exchange_contour_integration.h"
+#include "radiosity/exchange_reference_pairs.h"
 #include "radiosity/exchange_walked.h"
 
 namespace tyndall::radiosity {
 namespace {
 
 constexpr NamedExchangeMethod methods[]{
-    {"walked", exchange_walked, true, true},
+    {.name = "walked", .method = exchange_walked, .moments = true, .detail = true},
+    {.name = "contour_integration",
+     .method = exchange_contour_integration,
+     .zones = false,
+     .occlusion = false,
+     .media = false},
+    {.name = "reference_pairs", .method = exchange_reference_pairs},
 };
 
 }  // namespace
@@ -28,6 +36,16 @@ const NamedExchangeMethod& exchange_method(std::string_view name) {
     for (const auto& method : methods) names.push_back(method.name);
     throw mesh::InputError(fmt::format("there is no exchange method \"{}\". Choose one of {}.",
                                        name, fmt::join(names, ", ")));
+}
+
+void refuse_pair(const Discretization& d, std::string_view method, ElementId i, ElementId j,
+                 std::string_view why, bool NamedExchangeMethod::*ability) {
+    std::vector<std::string_view> able;
+    for (const auto& other : methods)
+        if (other.*ability && other.name != method) able.push_back(other.name);
+    const auto name = [&](ElementId id) { return name_of(d.enclosure, d.forest, d.elements, id); };
+    throw mesh::InputError(fmt::format("{} cannot do the pair {}, {}: {}. Those that can: {}.",
+                                       method, name(i), name(j), why, fmt::join(able, ", ")));
 }
 
 }  // namespace tyndall::radiosity

@@ -10,8 +10,11 @@ namespace tyndall::radiosity {
 struct NamedExchangeMethod {
     std::string_view name;
     ExchangeMethod method;
-    bool moments = false;  // makes first moments: elements may hold linear functions
-    bool detail = false;   // can deposit in coarser elements (ExchangeOptions::detail)
+    bool zones = true;      // can: pairs with zones
+    bool occlusion = true;  //   pairs with something in the way
+    bool media = true;      //   patches with a medium between them
+    bool moments = false;   //   first moments, so that elements hold linear functions
+    bool detail = false;    //   deposits in coarser elements (ExchangeOptions::detail)
 };
 
 // The default first.
@@ -19,5 +22,11 @@ std::span<const NamedExchangeMethod> exchange_methods();
 
 // Errors: mesh::InputError that lists the names there are.
 const NamedExchangeMethod& exchange_method(std::string_view name);
+
+// Throws the mesh::InputError of a pair that `method` cannot do: names both elements, says why, and
+// which methods have `ability`.
+[[noreturn]] void refuse_pair(const Discretization& d, std::string_view method, ElementId i,
+                              ElementId j, std::string_view why,
+                              bool NamedExchangeMethod::*ability);
 
 }  // namespace tyndall::radiosity

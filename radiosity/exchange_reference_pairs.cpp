@@ -1,0 +1,97 @@
+#include "radiosity/exchange_reference_pairs.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesh/input_error.h"
+#include "radiosity/face_pairs.h"
+#include "radiosity/pair_rows.h"
+
+namespace tyndall::radiosity {
+namespace {
+
+// A first look tells how much each integral may be off.
+constexpr double first_look = 1e-2;
+constexpr std::size_t most_evaluations = 20'000'000;
+
+class ReferencePairs {
+  public:
+    ReferencePairs(const Discretization& d, const ExchangeOptions& options)
+        : d_(d), options_(options), pairs_(d) {}
+
+    double area(ElementId i, ElementId j) const {
+        const Shape& a = pairs_.shape(i);
+        const Shape& b = pairs_.shape(j);
+        const DepthKernel kernel = kernel_of(a, b);
+        std::vector<Part> parts;
+        double sum = 0.0;
+        each_facing(a, b, [&](const FacingParts& facing) {
+            Part part{facing, pairs_.blocked(facing), pairs_.extinction(facing, options_.band)};
+            part.integral = integral(part, kernel, {first_look, 0.0, most_evaluations});
+            sum += facing.sign * part.integral.value;
+            parts.push_back(std::move(part));
+        });
+        const double goal = options_.settings.tolerance * std::abs(sum) /
+                            static_cast<double>(std::max<std::size_t>(1, parts.size()));
+        if (goal == 0.0) return 0.0;
+        double result = 0.0, error = 0.0;
+        for (Part& part : parts) {
+            if (part.integral.error > goal)
+                part.integral = integral(part, kernel, {0.0, goal, most_evaluations});
+            result += part.facing.sign * part.integral.value;
+            error += part.integral.error;
+        }
+        // The first look may have been off by its own percent.
+        if (error > 2.0 * options_.settings.tolerance * std::abs(result))
+            fail(i, j, error / result);
+        return result;
+    }
+
+  private:
+    struct Part {
+        FacingParts facing;
+        bool blocked;
+        std::optional<double> extinction;
+        Integral integral{};
+    };
+
+    Integral integral(const Part& part, DepthKernel kernel, const CubatureOptions& options) const {
+        const PolygonPair pair{part.facing.p, part.facing.q, part.facing.p_normal,
+                               part.facing.q_normal};
+        if (part.extinction == 0.0 && kernel != DepthKernel::transmittance) return {};
+        if (!part.blocked && part.extinction)
+            return exchange_in_sight(pair, *part.extinction, kernel, options);
+        return exchange_past(
+            pair,
+            {d_.enclosure, pairs_.occluders(), pairs_.depth(), options_.band, part.extinction},
+            kernel, options);
+    }
+
+    [[noreturn]] void fail(ElementId i, ElementId j, double error) const {
+        const auto name = [&](ElementId id) {
+            return name_of(d_.enclosure, d_.forest, d_.elements, id);
+        };
+        throw mesh::InputError(fmt::format(
+            "reference_pairs: {} and {} were computed to a relative error of {:.1g}, not {:.1g}. "
+            "Ask for a looser tolerance (--tolerance, solve.exchange_tolerance).",
+            name(i), name(j), std::abs(error), options_.settings.tolerance));
+    }
+
+    const Discretization& d_;
+    const ExchangeOptions& options_;
+    FacePairs pairs_;
+};
+
+}  // namespace
+
+void exchange_reference_pairs(const Discretization& discretization, std::span<const ElementId> rows,
+                              const ExchangeOptions& options, const RowSink& sink) {
+    const ReferencePairs pairs(discretization, options);
+    pair_rows(
+        discretization, rows, options, false,
+        [&](ElementId i, ElementId j) { return pairs.area(i, j); }, sink);
+}
+
+}  // namespace tyndall::radiosity
