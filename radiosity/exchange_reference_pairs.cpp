@@ -14,6 +14,7 @@ namespace {
 
 // A first look tells how much each integral may be off.
 constexpr double first_look = 1e-2;
+constexpr int most_looks = 4;
 constexpr std::size_t most_evaluations = 20'000'000;
 
 class ReferencePairs {
@@ -24,7 +25,7 @@ class ReferencePairs {
     double area(ElementId i, ElementId j) const {
         const Shape& a = pairs_.shape(i);
         const Shape& b = pairs_.shape(j);
-        const DepthKernel kernel = kernel_of(a, b);
+        const DepthKernel kernel = pairs_.kernel(a, b, options_.band);
         std::vector<Part> parts;
         double sum = 0.0;
         each_facing(a, b, [&](const FacingParts& facing) {
@@ -33,20 +34,22 @@ class ReferencePairs {
             sum += facing.sign * part.integral.value;
             parts.push_back(std::move(part));
         });
-        const double goal = options_.settings.tolerance * std::abs(sum) /
-                            static_cast<double>(std::max<std::size_t>(1, parts.size()));
-        if (goal == 0.0) return 0.0;
-        double result = 0.0, error = 0.0;
-        for (Part& part : parts) {
-            if (part.integral.error > goal)
-                part.integral = integral(part, kernel, {0.0, goal, most_evaluations});
-            result += part.facing.sign * part.integral.value;
-            error += part.integral.error;
+        // Signs cancel, so that the first look may not even know the sum: closer, until it does.
+        double result = sum, error = 0.0;
+        for (int look = 0; look < most_looks; ++look) {
+            const double goal = options_.settings.tolerance * std::abs(result) /
+                                std::sqrt(static_cast<double>(parts.size()));
+            if (goal == 0.0) return 0.0;
+            result = error = 0.0;
+            for (Part& part : parts) {
+                if (part.integral.error > goal)
+                    part.integral = integral(part, kernel, {0.0, goal, most_evaluations});
+                result += part.facing.sign * part.integral.value;
+                error = std::hypot(error, part.integral.error);
+            }
+            if (error <= options_.settings.tolerance * std::abs(result)) return result;
         }
-        // The first look may have been off by its own percent.
-        if (error > 2.0 * options_.settings.tolerance * std::abs(result))
-            fail(i, j, error / result);
-        return result;
+        fail(i, j, error / result);
     }
 
   private:

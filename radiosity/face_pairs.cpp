@@ -1,7 +1,9 @@
 #include "radiosity/face_pairs.h"
 
 #include <algorithm>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "mesh/shaft.h"
 
@@ -26,12 +28,24 @@ int weight(const Shape& shape, const ElementFace& face, bool to_front) {
     return -1;
 }
 
-}  // namespace
-
-DepthKernel kernel_of(const Shape& a, const Shape& b) {
-    if (a.zone && b.zone) return DepthKernel::second;
-    return a.zone || b.zone ? DepthKernel::first : DepthKernel::transmittance;
+// Between the bounding boxes [m].
+double distance(const Shape& a, const Shape& b) {
+    const auto box = [](const Shape& shape) {
+        std::pair<Point, Point> box{Point(std::numeric_limits<double>::max()),
+                                    Point(std::numeric_limits<double>::lowest())};
+        for (const ElementFace& face : shape.faces)
+            for (const Point& corner : face.polygon.corners) {
+                box.first = glm::min(box.first, corner);
+                box.second = glm::max(box.second, corner);
+            }
+        return box;
+    };
+    const auto [a_low, a_high] = box(a);
+    const auto [b_low, b_high] = box(b);
+    return glm::length(glm::max(glm::max(a_low - b_high, b_low - a_high), Point(0.0)));
 }
+
+}  // namespace
 
 void each_facing(const Shape& a, const Shape& b,
                  const std::function<void(const FacingParts&)>& take) {
@@ -63,6 +77,19 @@ FacePairs::FacePairs(const Discretization& d)
     for (std::size_t i = 0; i <= d.elements.size(); ++i)
         shapes_.push_back(
             {i < d.elements.outside() && !d.elements.is_patch(i), faces_of(d, ElementId(i))});
+}
+
+DepthKernel FacePairs::kernel(const Shape& a, const Shape& b, std::size_t band) const {
+    if (!a.zone && !b.zone) return DepthKernel::transmittance;
+    double thinnest = std::numeric_limits<double>::max();
+    for (std::size_t r = 0; r < enclosure_.mesh.region_count; ++r) {
+        if (enclosure_.region_solid[r]) continue;
+        const auto medium = enclosure_.region_medium[r];
+        thinnest =
+            std::min(thinnest, medium == none ? 0.0 : enclosure_.media[medium].extinction[band]);
+    }
+    if (thinnest * distance(a, b) > 1.0) return DepthKernel::transmittance;
+    return a.zone && b.zone ? DepthKernel::second : DepthKernel::first;
 }
 
 bool FacePairs::any_between(const FacingParts& parts,

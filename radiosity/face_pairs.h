@@ -34,14 +34,15 @@ struct FacingParts {
 void each_facing(const Shape& a, const Shape& b,
                  const std::function<void(const FacingParts&)>& take);
 
-DepthKernel kernel_of(const Shape& a, const Shape& b);
-
 // The shapes of a discretization's elements, then outside's, and what may come between them.
 class FacePairs {
   public:
     explicit FacePairs(const Discretization& discretization);
 
     const Shape& shape(ElementId element) const { return shapes_[element.value]; }
+    // The kernel that loses least to cancellation: that of the number of zones; for zones that lie
+    // far apart in a thick medium the transmittance itself, which is right where they do not touch.
+    DepthKernel kernel(const Shape& a, const Shape& b, std::size_t band) const;
     // Whether some opaque facet has a part between the two.
     bool blocked(const FacingParts& parts) const;
     // The extinction between them [1/m]; none where media that differ lie there.

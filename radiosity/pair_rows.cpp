@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
+#include <mutex>
 #include <numeric>
 #include <unordered_map>
 
@@ -48,21 +49,27 @@ class PairAreas {
         : pairs_(std::move(pairs)), values_(pairs_.size()) {
         std::vector<std::exception_ptr> errors(pairs_.size());
         std::atomic<std::size_t> done = 0;
-        std::atomic<bool> failed = false;
+        std::atomic<bool> failed = false, stopped = false;
+        std::mutex reporting;
         tbb::parallel_for(std::size_t(0), pairs_.size(), [&](std::size_t k) {
-            if (failed) return;
+            if (failed || stopped) return;
             try {
                 values_[k] = area(ElementId(pairs_[k].i), ElementId(pairs_[k].j));
             } catch (...) {
                 errors[k] = std::current_exception();
                 failed = true;
             }
-            if (options.progress)
-                options.progress(
-                    {"exchange areas", double(++done) / double(pairs_.size()), elements, 0.0});
+            ++done;
+            // One thread at a time; who would wait says nothing.
+            const std::unique_lock lock(reporting, std::try_to_lock);
+            const double fraction = double(done) / double(pairs_.size());
+            if (lock && !report(options.progress, {"exchange areas", fraction, elements, 0.0}))
+                stopped = true;
         });
         for (const auto& error : errors)
             if (error) std::rethrow_exception(error);
+        if (stopped)
+            throw mesh::InputError("stopped on request, before all exchange areas were made.");
     }
 
     double operator()(std::uint32_t i, std::uint32_t j) const {

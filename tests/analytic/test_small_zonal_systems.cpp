@@ -1,12 +1,16 @@
 // The smallest systems there are, one zone and six faces, against solutions from exact exchange
 // areas.
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "radiosity/coarse_solution.h"
+#include "radiosity/exchange_methods.h"
 #include "radiosity/start_elements.h"
 #include "support/catch.h"
 #include "support/cube.h"
 #include "support/reference.h"
+#include "support/rooms.h"
 
 using namespace tyndall;
 using namespace tyndall::radiosity;
@@ -102,9 +106,82 @@ TEST_CASE("One zone and six faces with exact exchange areas: the exact solution"
         CHECK(result.radiance[6] == Approx(J).epsilon(1e-6));
         for (std::size_t i = 0; i < 6; ++i) {
             const double expected = reference["I"][s.wall[i]][0][0];
-            CHECK(result.radiance[i] == Approx(expected).epsilon(1e-6));
+            CHECK(result.radiance[i] == Approx(expected).epsilon(1e-6).margin(1e-12));
         }
     }
+}
+
+namespace {
+
+// The unit cube cut into cells³ zones, its walls into cells² patches each, one element a cell:
+// media and surfaces that are named by where they are.
+Scene cells_of_cube(const test::Cube& cube, int cells) {
+    Scene scene;
+    scene.materials = {test::material(cube.reflectance),
+                       test::material(cube.reflectance, cube.bottom_emission)};
+    const double h = 1.0 / cells;
+    for (int axis = 0; axis < 3; ++axis)
+        for (int layer = 0; layer <= cells; ++layer)
+            for (int p = 0; p < cells; ++p)
+                for (int q = 0; q < cells; ++q) {
+                    const int a = axis == 0 ? 1 : 0, b = axis == 2 ? 1 : 2;
+                    mesh::Point corner(0.0), u(0.0), v(0.0);
+                    corner[axis] = layer * h;
+                    corner[a] = p * h;
+                    corner[b] = q * h;
+                    u[a] = v[b] = h;
+                    // Fronts look into the cube.
+                    if ((glm::cross(u, v)[axis] > 0.0) != (layer == 0)) std::swap(u, v);
+                    const bool wall = layer == 0 || layer == cells;
+                    const auto name = fmt::format("{}{}_{}_{}", "xyz"[axis], layer, p, q);
+                    std::optional<std::size_t> material;
+                    if (wall) material = axis == 2 && layer == 0 ? 1 : 0;
+                    test::add_surfaces(scene, name, mesh::rectangle(corner, u, v), material);
+                }
+    for (int x = 0; x < cells; ++x)
+        for (int y = 0; y < cells; ++y)
+            for (int z = 0; z < cells; ++z) {
+                auto medium =
+                    test::medium(cube.extinction, cube.albedo, h * (mesh::Point(x, y, z) + 0.5));
+                medium.name = fmt::format("{}_{}_{}", x, y, z);
+                scene.media.push_back(medium);
+            }
+    return scene;
+}
+
+}  // namespace
+
+TEST_CASE("Zonal systems of reference_pairs come to the exact solution", "[zonal]") {
+    const auto file = test::reference("5b_zonal_exact_small");
+    for (const int cells : {1, 2})
+        for (const Case& c : cases(1)) {
+            const auto enclosure = make_enclosure(cells_of_cube(c.cube, cells));
+            const Forest forest(enclosure.mesh);
+            const auto elements = start_elements(enclosure, forest, Start::single_zone);
+            REQUIRE(elements.size() == std::size_t(cells * cells * (cells + 6)));
+            const auto areas =
+                all_rows(exchange_method("reference_pairs").method, {enclosure, forest, elements},
+                         {.settings = {.tolerance = 1e-7}});
+            const SolverResult result =
+                solve_gmres({elements, areas, 0, elements.emission}, {1e-12, 100});
+            REQUIRE(result.converged);
+            const std::string name = c.name.substr(0, c.name.size() - 1) + std::to_string(cells);
+            const auto reference = test::reference_case(file, name)["value"];
+            for (std::size_t i = 0; i < elements.size(); ++i) {
+                const auto id = name_of(enclosure, forest, elements, ElementId(i));
+                INFO(name << ": " << id);
+                int x = id[0] - '0', y = id[2] - '0', z = id[4] - '0';
+                double expected;
+                if (elements.is_patch(i)) {
+                    const int axis = id[0] - 'x', p = id[3] - '0', q = id[5] - '0';
+                    expected = reference["I"][2 * axis + (id[1] != '0')][p][q];
+                } else {
+                    expected = reference["J"][x][y][z];
+                }
+                // The reference is given to 1e-9; single precision of the rows allows for 1e-6.
+                CHECK(result.radiance[i] == Approx(expected).epsilon(1e-6).margin(1e-12));
+            }
+        }
 }
 
 TEST_CASE("Walked rows of one zone and six faces come to the exact solution with rays", "[zonal]") {

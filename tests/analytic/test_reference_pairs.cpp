@@ -1,0 +1,62 @@
+// reference_pairs and contour_integration against every figure of pairs that there is.
+#include <cmath>
+
+#include "support/catch.h"
+#include "support/reference_pair.h"
+
+using namespace tyndall;
+
+namespace {
+
+// Relative to the case's figure, which F12 gives per area of the first polygon.
+double relative_error(const nlohmann::json& c, const std::string& method, double tolerance) {
+    auto pair = test::reference_pair(c);
+    const double area =
+        pair.exchange_area(method, {.settings = {.tolerance = tolerance}}, "1", test::second_of(c));
+    double expected = c["value"];
+    if (c["quantity"] == "F12") {
+        const auto p = test::corners_of(c["geometry"]["poly1"]);
+        glm::dvec3 sum(0.0);
+        for (std::size_t k = 1; k + 1 < p.size(); ++k)
+            sum += 0.5 * glm::cross(p[k] - p[0], p[k + 1] - p[0]);
+        expected *= glm::length(sum);
+    }
+    return area / expected - 1.0;
+}
+
+double uncertainty(const nlohmann::json& c) {
+    return double(c["abs_uncertainty"]) / double(c["value"]);
+}
+
+void check_all(const std::string& name, const std::string& method, double tolerance) {
+    const auto file = test::reference(name);
+    for (const auto& c : file["cases"]) {
+        if (c["geometry"].contains("point")) continue;
+        const double error = relative_error(c, method, tolerance);
+        INFO(c["name"] << ": " << error);
+        WARN(c["name"] << ": " << error);
+        CHECK(std::abs(error) < std::max(tolerance, 3.0 * uncertainty(c)));
+    }
+}
+
+}  // namespace
+
+TEST_CASE("reference_pairs: polygons in empty space", "[exchange]") {
+    check_all("1_vacuum_view_factors", "reference_pairs", 1e-6);
+}
+
+TEST_CASE("contour_integration: polygons in empty space", "[exchange]") {
+    check_all("1_vacuum_view_factors", "contour_integration", 1e-11);
+}
+
+TEST_CASE("reference_pairs: boxes and their faces in a medium", "[exchange]") {
+    check_all("3a_box_dea_extinction", "reference_pairs", 1e-6);
+}
+
+TEST_CASE("reference_pairs: triangles and tetrahedra in a medium", "[exchange]") {
+    check_all("3b_triangle_tet_dea_extinction", "reference_pairs", 1e-6);
+}
+
+TEST_CASE("reference_pairs: rectangles past screens and through apertures", "[exchange]") {
+    check_all("2_occluded_factors", "reference_pairs", 1e-6);
+}
