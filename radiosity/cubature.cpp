@@ -70,7 +70,7 @@ struct Cell {
 double left(double fourth, double sixth) {
     if (!(sixth < 0.5 * fourth)) return sixth;
     const double fall = sixth / fourth;
-    return std::min(sixth, 10.0 * sixth * fall);
+    return std::min(sixth, 3.0 * sixth * fall);
 }
 
 void evaluate(Cell& cell, const std::function<double(double, double)>& f) {
