@@ -6,6 +6,9 @@
 #include <algorithm>
 
 #include "mesh/input_error.h"
+#include "radiosity/exchange_full_cube.h"
+#include "radiosity/exchange_hemicube.h"
+#include "radiosity/exchange_single_plane.h"
 #include "radiosity/exchange_walked.h"
 
 namespace tyndall::radiosity {
@@ -13,6 +16,9 @@ namespace {
 
 constexpr NamedExchangeMethod methods[]{
     {"walked", exchange_walked, true, true},
+    {"full_cube", exchange_full_cube},
+    {"hemicube", exchange_hemicube},
+    {"single_plane", exchange_single_plane},
 };
 
 }  // namespace
