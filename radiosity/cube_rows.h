@@ -25,8 +25,10 @@ struct CubeKinds {
 //               element. Otherwise all cubes are turned alike, those of zones along the axes.
 //   projection  z_buffer: an item buffer (item_buffer.h); walked: a walk through each pixel's
 //               middle. They find the same but for pixels whose middle lies on an edge.
-// Cost: z_buffer: per cube O(elements + pixels × zones along a ray × a small factor), whatever is
-//   hidden; walked: pixels × tets crossed.
+// Cost: z_buffer: per cube the elements, and the pixels in the rectangle around each, hidden or
+// not;
+//   walked: pixels × tets crossed, which is less in every scene measured: 1.3 times at 600 and at
+//   7000 elements, 2 to 3.5 times at 53 000.
 // Errors: none of its own; methods refuse what they cannot do.
 void rows_by_cubes(const Discretization& discretization, std::span<const ElementId> rows,
                    const ExchangeOptions& options, const RowSink& sink, const CubeKinds& kinds);

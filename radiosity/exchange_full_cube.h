@@ -13,9 +13,11 @@ namespace tyndall::radiosity {
 //   Settings: resolution, centres, random_offsets, projection (cube_rows.h).
 // Valid for: all elements. Rows close by construction.
 // Cost: cube_rows.h; the defaults project 6 × 64² pixels.
-// Error: of what a cube sees, as of a hemi-cube. One cube at the centroid is not enough: V_kV_m of
-//   zones that touch are then a third off, whatever the resolution, as the integrand grows without
-//   bound towards the face between them. With more centres the error falls.
+// Error: of what a cube sees, as one over the resolution where edges run along pixels, and as its
+//   power −3/2 where they do not; random offsets are right in the mean. One cube at the centroid is
+//   not enough: of cubes of one optical length V_kV_k is then 38 % too large and V_kV_m of
+//   neighbours 26 % too small, whatever the resolution: from the middle a zone surrounds the eye
+//   more than from its other points. With more centres the error falls: 0.1 % at 512.
 // Source: Rushmeier & Torrance (1987).
 void exchange_full_cube(const Discretization& discretization, std::span<const ElementId> rows,
                         const ExchangeOptions& options, const RowSink& sink);

@@ -15,9 +15,11 @@ namespace tyndall::radiosity {
 //   Rows close by construction. Reciprocity comes with centres and resolution.
 // Errors: mesh::InputError for a zone, with its medium's name.
 // Cost: cube_rows.h; the defaults project 3 × 64² pixels.
-// Error: of what a cube sees: about one over the resolution where edges run along pixels, and the
-//   resolution to the power −3/2 where they do not. That one point stands for the patch: as the
-//   patch's size over the distance, squared; it does not fall with the resolution.
+// Error: of what a cube sees: as one over the resolution, since edges along the patch's normal run
+//   along the sides' pixels (rooms, root mean square: 0.7 % of all at 16 pixels, 0.09 % at 128).
+//   That one point stands for the patch: as the patch's size over the distance, squared; it does
+//   not fall with the resolution. Random offsets are right in the mean but for the order 2 in
+//   pixels.
 // Source: Cohen & Greenberg (1985); in media Rushmeier & Torrance (1987).
 void exchange_hemicube(const Discretization& discretization, std::span<const ElementId> rows,
                        const ExchangeOptions& options, const RowSink& sink);

@@ -15,7 +15,9 @@ namespace tyndall::radiosity {
 //   Rows do not close: every row lacks the same 1.6 %, which goes nowhere and is in closure_error
 //   and in the energy balance. It is not spread over what is seen: that has no claim to it.
 // Errors: mesh::InputError for a zone, with its medium's name.
-// Cost: cube_rows.h; a third of a hemi-cube's pixels. Those in the middle are 14 times as large.
+// Cost: cube_rows.h; a third of a hemi-cube's pixels.
+// Error: pixels are 7 times as wide as a hemi-cube's: 0.5 % of parallel unit squares at 64 pixels
+//   along the edge, 0.01 % at 256 (32 centres, random offsets).
 // Source: Sillion & Puech (1989), whose plane is subdivided as a scene needs it; here pixels are
 //   equal squares.
 void exchange_single_plane(const Discretization& discretization, std::span<const ElementId> rows,

@@ -72,6 +72,17 @@ std::array<std::size_t, 2> pixels_between(double low, double high, double first,
     return {within(from), within(to)};
 }
 
+// normal · d of the directions d through a face's pixels.
+struct Rate {
+    double across, along_u, along_v;
+
+    Rate(const CubeFace& face, const Direction& normal)
+        : across(face.sign * normal[face.across]),
+          along_u(normal[face.along_u]),
+          along_v(normal[face.along_v]) {}
+    double operator()(double u, double v) const { return across + u * along_u + v * along_v; }
+};
+
 PixelBox pixels_within(const CubeFace& face, const PixelBox& tile, const Bounds& b) {
     const auto u =
         pixels_between(b.u_min, b.u_max, face.u_min, face.u_step(), tile.u_begin, tile.u_end);
@@ -165,30 +176,17 @@ void ItemBuffer::draw(const CubeFace& face, const PixelBox& tile) {
     sort_fragments();
 }
 
-template <class On>
-void ItemBuffer::each_pixel(const CubeFace& face, const PixelBox& box, On&& on) const {
-    for (std::size_t j = box.v_begin; j < box.v_end; ++j) {
-        const double v = v_[j - tile_.v_begin];
-        std::size_t p = (j - tile_.v_begin) * u_.size() + box.u_begin - tile_.u_begin;
-        for (std::size_t i = box.u_begin; i < box.u_end; ++i, ++p) {
-            const double u = u_[i - tile_.u_begin];
-            on(
-                [&](const Direction& normal) {
-                    return face.sign * normal[face.across] + u * normal[face.along_u] +
-                           v * normal[face.along_v];
-                },
-                lengths_[p], p);
-        }
-    }
-}
-
 void ItemBuffer::draw_patch(const CubeFace& face, const FacingPatch& patch) {
     const PixelBox box = pixels_within(face, tile_, bounds_of(face, patch.corners));
-    each_pixel(face, box, [&](const auto& rate, double length, std::size_t p) {
-        const double slope = rate(patch.normal);
+    if (box.empty()) return;
+    const Rate slope_of(face, patch.normal);
+    const std::array beyond{Rate(face, patch.edges[0].normal), Rate(face, patch.edges[1].normal),
+                            Rate(face, patch.edges[2].normal)};
+    each_pixel(box, [&](double u, double v, double length, std::size_t p) {
+        const double slope = slope_of(u, v);
         if (!(slope < 0.0)) return;
-        for (const Edge& edge : patch.edges)
-            if (!(rate(edge.normal) <= edge.tolerance * length)) return;
+        for (int k = 0; k < 3; ++k)
+            if (!(beyond[k](u, v) <= patch.edges[k].tolerance * length)) return;
         const double at = patch.offset / slope;
         if (!(at < depth_[p] * (1.0 - depth_rounding))) return;
         depth_[p] = at;
@@ -198,17 +196,23 @@ void ItemBuffer::draw_patch(const CubeFace& face, const FacingPatch& patch) {
 
 void ItemBuffer::draw_zone(const CubeFace& face, const SeenZone& zone) {
     const PixelBox box = pixels_within(face, tile_, bounds_of(face, zone.corners));
-    each_pixel(face, box, [&](const auto& rate, double length, std::size_t p) {
+    if (box.empty()) return;
+    const auto& planes = zone.planes;
+    const std::array slopes{Rate(face, planes[0].normal), Rate(face, planes[1].normal),
+                            Rate(face, planes[2].normal), Rate(face, planes[3].normal)};
+    each_pixel(box, [&](double u, double v, double length, std::size_t p) {
         double near = 0.0, far = depth_[p];
-        for (const Plane& plane : zone.planes) {
-            const double slope = rate(plane.normal);
-            if (plane.touches && std::abs(slope) <= plane.nothing * length) continue;
+        for (int k = 0; k < 4; ++k) {
+            const double slope = slopes[k](u, v);
+            if (planes[k].touches && std::abs(slope) <= planes[k].nothing * length) continue;
+            const double at = planes[k].offset / slope;
             if (slope > 0.0)
-                far = std::min(far, plane.offset / slope);
+                far = std::min(far, at);
             else if (slope < 0.0)
-                near = std::max(near, plane.offset / slope);
+                near = std::max(near, at);
             else
                 far = -infinity;
+            if (!(far > near)) return;
         }
         // Not what rounding leaves behind a wall, or of a zone that the eye only touches.
         if (near >= depth_[p] * (1.0 - depth_rounding) || !(far - near > rounding * reach_)) return;

@@ -104,10 +104,16 @@ class ItemBuffer {
     void sort_fragments();
     template <class Deposit>
     void hand_over(const CubeFace& face, Deposit&& deposit);
-    // on(rate, length, p) for the pixels of a box, in rows: rate(normal) is normal · d of the
-    // pixel's direction d, `length` that of d, p the pixel's place in the tile.
+    // on(u, v, length, p) for the pixels of a box: `length` is that of the direction through u and
+    // v, p the pixel's place in the tile.
     template <class On>
-    void each_pixel(const CubeFace& face, const PixelBox& box, On&& on) const;
+    void each_pixel(const PixelBox& box, On&& on) const {
+        for (std::size_t j = box.v_begin - tile_.v_begin; j < box.v_end - tile_.v_begin; ++j)
+            for (std::size_t i = box.u_begin - tile_.u_begin; i < box.u_end - tile_.u_begin; ++i) {
+                const std::size_t p = j * u_.size() + i;
+                on(u_[i], v_[j], lengths_[p], p);
+            }
+    }
 
     const DrawnElements* elements_;
     std::vector<Point> points_;  // in the cube's frame [m]
