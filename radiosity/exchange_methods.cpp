@@ -7,7 +7,10 @@
 
 #include "mesh/input_error.h"
 #include "radiosity/exchange_contour_integration.h"
+#include "radiosity/exchange_full_cube.h"
+#include "radiosity/exchange_hemicube.h"
 #include "radiosity/exchange_reference_pairs.h"
+#include "radiosity/exchange_single_plane.h"
 #include "radiosity/exchange_walked.h"
 
 namespace tyndall::radiosity {
@@ -21,6 +24,9 @@ constexpr NamedExchangeMethod methods[]{
      .occlusion = false,
      .media = false},
     {.name = "reference_pairs", .method = exchange_reference_pairs},
+    {.name = "full_cube", .method = exchange_full_cube},
+    {.name = "hemicube", .method = exchange_hemicube, .zones = false},
+    {.name = "single_plane", .method = exchange_single_plane, .zones = false},
 };
 
 }  // namespace

@@ -1,33 +1,15 @@
 #include "radiosity/exchange_walked.h"
 
-#include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 #include <glm/vec4.hpp>
-
-#include <algorithm>
 #include <numbers>
 
 #include "radiosity/point_set.h"
 #include "radiosity/row_accumulator.h"
+#include "radiosity/row_batches.h"
 #include "radiosity/row_scene.h"
 
 namespace tyndall::radiosity {
 namespace {
-
-// Rows that one task makes, one after the other.
-struct Rows {
-    std::vector<std::size_t> ends;
-    std::vector<std::uint32_t> columns;
-    std::vector<double> values;
-    std::vector<Direction> moments;
-
-    void clear() {
-        ends.clear();
-        columns.clear();
-        values.clear();
-        moments.clear();
-    }
-};
 
 struct RayStart {
     mesh::Ray ray;
@@ -54,7 +36,7 @@ class Walker {
         centres_.push_back(middle_);  // outside
     }
 
-    void row(ElementId id, Shares& sums, Rows& rows) const {
+    void row(ElementId id, Shares& sums, FinishedRows& rows) const {
         follow(id.value, [&](const mesh::Ray&, std::uint32_t column, double share, double) {
             sums.add(column, share);
         });
@@ -67,7 +49,7 @@ class Walker {
         rows.ends.push_back(rows.columns.size());
     }
 
-    void row(ElementId id, PlacedShares& sums, Rows& rows) const {
+    void row(ElementId id, PlacedShares& sums, FinishedRows& rows) const {
         follow(id.value, [&](const mesh::Ray& ray, std::uint32_t column, double share, double at) {
             const Point place = ray.origin - middle_ + at * ray.direction;
             sums.add(column, share * glm::dvec4(1.0, place));
@@ -150,37 +132,11 @@ void make_rows(const Discretization& discretization, std::span<const ElementId> 
     const Walker walker(discretization, options, points);
     const std::size_t columns =
         options.levels ? options.levels->columns() : discretization.elements.size() + 1;
-    tbb::enumerable_thread_specific<Accumulator> accumulators(columns);
-    // In batches, so that rows arrive in order and memory stays small; a task makes a run of rows,
-    // which are neighbours and walk through the same part of the trees.
-    constexpr std::size_t run = 32, batch = 128 * run;
-    std::vector<Rows> finished(batch / run);
-    for (std::size_t begin = 0; begin < rows.size(); begin += batch) {
-        const std::size_t end = std::min(begin + batch, rows.size());
-        const std::size_t runs = (end - begin + run - 1) / run;
-        tbb::parallel_for(std::size_t(0), runs, [&](std::size_t r) {
-            auto& accumulator = accumulators.local();
-            finished[r].clear();
-            for (std::size_t k = begin + r * run; k < std::min(end, begin + (r + 1) * run); ++k)
-                walker.row(rows[k], accumulator, finished[r]);
-        });
-        for (std::size_t r = 0; r < runs; ++r) {
-            std::size_t first = 0;
-            for (std::size_t k = 0; k < finished[r].ends.size(); ++k) {
-                const std::size_t count = finished[r].ends[k] - first;
-                const auto of_row = [&](const auto& values) {
-                    return std::span(values).subspan(std::min(first, values.size()),
-                                                     values.empty() ? 0 : count);
-                };
-                sink({rows[begin + r * run + k], of_row(finished[r].columns),
-                      of_row(finished[r].values), of_row(finished[r].moments)});
-                first += count;
-            }
-        }
-        if (options.progress)
-            options.progress({"exchange areas", double(end) / double(rows.size()),
-                              discretization.elements.size(), 0.0});
-    }
+    // Neighbours walk through the same part of the trees: a task makes a run of rows.
+    make_row_batches(discretization, rows, options, sink, 32, Accumulator(columns),
+                     [&](ElementId id, Accumulator& sums, FinishedRows& finished) {
+                         walker.row(id, sums, finished);
+                     });
 }
 
 }  // namespace

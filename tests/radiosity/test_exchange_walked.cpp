@@ -3,59 +3,16 @@
 #include <cmath>
 
 #include "support/catch.h"
+#include "support/crowded_cube.h"
 #include "support/cube.h"
-#include "support/random_rays.h"
 
 using namespace tyndall;
 using namespace tyndall::radiosity;
 
-namespace {
-
-// A cube whose medium, walls and openings make a row meet everything: a partition, an interface
-// with another medium behind it, an opening in the hull.
-Enclosure crowded() {
-    auto enclosure = test::box_enclosure({{{0, 1, 2}, {0, 1, 2}, {0, 1, 2}}},
-                                         [](mesh::Point c, int axis) -> std::optional<test::Face> {
-                                             if (axis == 2 && c.z == 2.0 && c.x < 1.0)
-                                                 return std::nullopt;  // open
-                                             if (axis == 0 && c.x == 1.0 && c.z < 1.0)
-                                                 return test::Face{mesh::Opacity::opaque, 0, 1};
-                                             if (axis == 0 && c.x == 1.0)
-                                                 return test::Face{mesh::Opacity::interface};
-                                             if (c[axis] == 0.0)
-                                                 return test::Face{mesh::Opacity::opaque, 0, none};
-                                             if (c[axis] == 2.0)
-                                                 return test::Face{mesh::Opacity::opaque, none, 0};
-                                             return std::nullopt;
-                                         });
-    enclosure.sides = {{"wall", 0, mesh::Side::front, {0.5}, {0.0}, 24.0},
-                       {"back", 1, mesh::Side::front, {0.2}, {0.0}, 2.0}};
-    enclosure.media = {{"haze", {0.3}, {0.9}, {0.0}, {0.03}}};
-    // The right half is empty.
-    REQUIRE(enclosure.mesh.region_count == 2);
-    const auto& mesh = enclosure.mesh;
-    enclosure.region_medium[mesh.regions[test::tet_at(mesh, {0.3, 0.3, 0.3}).value].value] = 0;
-    return enclosure;
-}
-
-}  // namespace
-
 TEST_CASE("Walked rows close, and no entry is negative", "[exchange]") {
-    const auto enclosure = crowded();
+    const auto enclosure = test::crowded_cube();
     Forest forest(enclosure.mesh);
-    test::Random random(1);
-    for (int k = 0; k < 60; ++k) {
-        ZoneId zone(test::index_below(random, forest.zone_count()));
-        if (!forest.is_leaf(zone)) continue;
-        const auto [i, j] = forest.longest_edge(zone);
-        forest.bisect(zone, i, j);
-    }
-    for (int k = 0; k < 60; ++k) {
-        PatchId patch(test::index_below(random, forest.patch_count()));
-        if (!forest.is_leaf(patch)) continue;
-        const auto [i, j] = forest.longest_edge(patch);
-        forest.bisect(patch, i, j);
-    }
+    test::bisect_some(forest, 60);
     const auto elements = elements_of_leaves(enclosure, forest);
     const auto areas =
         all_rows(exchange_walked, {enclosure, forest, elements}, {.rays = 128, .progress = {}});
@@ -83,7 +40,7 @@ TEST_CASE("A wall does not exchange with its own plane", "[exchange]") {
 }
 
 TEST_CASE("Rows asked for are the rows given, whatever the order", "[exchange]") {
-    const auto enclosure = crowded();
+    const auto enclosure = test::crowded_cube();
     const Forest forest(enclosure.mesh);
     const auto elements = elements_of_leaves(enclosure, forest);
     const Discretization d{enclosure, forest, elements};
@@ -106,7 +63,7 @@ TEST_CASE("Rows asked for are the rows given, whatever the order", "[exchange]")
 }
 
 TEST_CASE("Reciprocity comes with rays", "[exchange]") {
-    const auto enclosure = crowded();
+    const auto enclosure = test::crowded_cube();
     const Forest forest(enclosure.mesh);
     const auto elements = elements_of_leaves(enclosure, forest);
     const auto error = [&](std::size_t rays) {

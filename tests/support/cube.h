@@ -62,23 +62,29 @@ inline std::vector<std::size_t> groups_of(const radiosity::Enclosure& enclosure,
     return groups;
 }
 
-// Σ_i∈a Σ_j∈b S_ij of walked rows, for all groups: [a][b].
-inline std::vector<std::vector<double>> group_exchange(const Cube& cube, std::size_t rays,
-                                                       std::uint64_t seed) {
+// Σ_i∈a Σ_j∈b S_ij of a method's rows, for all groups: [a][b].
+inline std::vector<std::vector<double>> group_exchange(const Cube& cube,
+                                                       radiosity::ExchangeMethod method,
+                                                       const radiosity::ExchangeOptions& options) {
     const auto enclosure = cube_enclosure(cube);
     const radiosity::Forest forest(enclosure.mesh);
     const auto elements = radiosity::elements_of_leaves(enclosure, forest);
     const auto groups = groups_of(enclosure, forest, elements, cube.size);
     const std::size_t count = 6 + cube.size[0] * cube.size[1] * cube.size[2];
-    const auto areas =
-        radiosity::all_rows(radiosity::exchange_walked, {enclosure, forest, elements},
-                            {.rays = rays, .seed = seed, .progress = {}});
+    const auto areas = radiosity::all_rows(method, {enclosure, forest, elements}, options);
     std::vector<std::vector<double>> sums(count, std::vector<double>(count, 0.0));
     for (std::size_t i = 0; i < areas.rows(); ++i)
         for (std::size_t k = areas.starts[i]; k < areas.starts[i + 1]; ++k)
             if (areas.columns[k] != elements.outside())
                 sums[groups[i]][groups[areas.columns[k]]] += areas.values[k];
     return sums;
+}
+
+// The same of walked rows.
+inline std::vector<std::vector<double>> group_exchange(const Cube& cube, std::size_t rays,
+                                                       std::uint64_t seed) {
+    return group_exchange(cube, radiosity::exchange_walked,
+                          {.rays = rays, .seed = seed, .progress = {}});
 }
 
 }  // namespace tyndall::test
