@@ -6,7 +6,7 @@
 
 namespace tyndall::radiosity {
 
-// Purpose: every pair of elements, and outside, as the sum over its faces (32), each integral to
+// Purpose: every pair of elements, and outside, as the sum over its faces (35), each integral to
 //   the relative error ExchangeOptions::settings.tolerance of the pair's exchange area.
 // Valid for: all pairs, touching and identical ones too; any occlusion; media homogeneous in each
 //   region. Symmetric by construction (a pair is computed once); rows close to the tolerance.

@@ -24,7 +24,7 @@ struct FacingParts {
 };
 
 // Purpose: the exchange area of two elements is a signed sum over pairs of their faces,
-//     S = Σ_f Σ_g w_f w_g ∫∫ K(u) |cosθ_f cosθ_g| V / (π s²) dA_f dA_g,                  (32)
+//     S = Σ_f Σ_g w_f w_g ∫∫ K(u) |cosθ_f cosθ_g| V / (π s²) dA_f dA_g,                  (35)
 //   w = 1 where a ray leaves the first or enters the second element, −1 where it enters the first
 //   or leaves the second; a patch is only left, and only met, on its own side; a zone's wall only
 //   from inside. K by the number of zones (DepthKernel). Along every ray that is the difference of

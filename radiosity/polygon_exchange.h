@@ -5,7 +5,7 @@
 #include <span>
 
 #include "mesh/visible_polygon.h"
-#include "radiosity/cubature.h"
+#include "radiosity/adaptive_cubature.h"
 #include "radiosity/optical_depth.h"
 
 namespace tyndall::radiosity {

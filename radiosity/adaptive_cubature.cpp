@@ -1,4 +1,4 @@
-#include "radiosity/cubature.h"
+#include "radiosity/adaptive_cubature.h"
 
 #include <algorithm>
 #include <array>

@@ -1,0 +1,117 @@
+// tyndall exchange as a user runs it.
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "support/catch.h"
+#include "support/program.h"
+
+using namespace tyndall;
+
+namespace {
+
+constexpr const char* squares = R"(format = 1
+material = [ { name = "grey", reflectance = 0.5 } ]
+surface  = [ { name = "low", material = "grey", rectangle = { corner = [0, 0, 0], u = [1, 0, 0], v = [0, 1, 0] } },
+             { name = "high", material = "grey", rectangle = { corner = [0, 0, 1], u = [0, 1, 0], v = [1, 0, 0] } },
+             { name = "side", material = "grey", rectangle = { corner = [0, 0, 0], u = [0, 1, 0], v = [0, 0, 1] } } ]
+)";
+
+constexpr const char* foggy_cube = R"(format = 1
+material = [ { name = "grey", reflectance = 0.5 } ]
+surface  = [ { name = "room", material = "grey", room = { min = [0, 0, 0], max = [1, 1, 1] } } ]
+medium   = [ { name = "haze", extinction = 1.0, albedo = 0.5 } ]
+)";
+
+// "from,to" → exchange area.
+std::map<std::string, double> areas(const std::string& csv) {
+    std::istringstream lines(csv);
+    std::string line;
+    std::getline(lines, line);
+    CHECK(line == "from,to,exchange_area");
+    std::map<std::string, double> result;
+    while (std::getline(lines, line)) {
+        const auto comma = line.rfind(',');
+        CHECK(result.emplace(line.substr(0, comma), std::stod(line.substr(comma + 1))).second);
+    }
+    return result;
+}
+
+}  // namespace
+
+TEST_CASE("Squares by contour integration: all pairs, to 1e-12") {
+    const test::Workplace place("exchange");
+    place.write("squares.toml", squares);
+    const auto outcome = place.run("exchange squares.toml --method contour_integration");
+    REQUIRE(outcome.code == 0);
+    CHECK_THAT(outcome.err, Contains("closure error") && Contains("reciprocity error"));
+    const auto area = areas(outcome.out);
+    // Six sides and outside, each with each, but for outside with itself.
+    CHECK(area.size() == 48);
+    const auto close = [](double x) { return Approx(x).epsilon(1e-12); };
+    CHECK(area.at("low+,high+") == close(0.199824895698387));
+    CHECK(area.at("high+,low+") == close(0.199824895698387));
+    CHECK(area.at("low+,side+") == close(0.200043776075403));
+    CHECK(area.at("low-,high+") == 0.0);
+    CHECK(area.at("low-,outside") == close(1.0));
+    CHECK(area.at("outside,low+") == close(1.0 - 0.199824895698387 - 0.200043776075403));
+}
+
+TEST_CASE("Some pairs only: names of sides, surfaces, parts and media") {
+    const test::Workplace place("exchange");
+    place.write("cube.toml", foggy_cube);
+    const std::string method = " --method reference_pairs --tolerance 1e-5 ";
+    const auto one = areas(place.good("exchange cube.toml --from haze --to room.floor" + method));
+    CHECK(one.size() == 1);
+    CHECK(one.at("haze,room.floor+") == Approx(0.44602745645511066).epsilon(1e-5));
+    const auto walls = areas(place.good("exchange cube.toml --from room --to haze --to room.x0+"));
+    CHECK(walls.size() == 12);
+    place.good("exchange cube.toml --from haze --to haze -o areas.csv --quiet" + method);
+    CHECK(areas(place.read("areas.csv")).at("haze,haze") ==
+          Approx(1.3238352612693434).epsilon(1e-5));
+    const auto json = nlohmann::json::parse(place.good("exchange cube.toml --rays 4096 --json"));
+    CHECK(json.at("entries").size() == 49 + 7 + 7);
+    CHECK(json.at("closure_error").get<double>() < 1e-12);
+    CHECK(json.at("reciprocity_error").get<double>() > 0.0);
+}
+
+TEST_CASE("What a method cannot do is said with the pair and the methods that can") {
+    const test::Workplace place("exchange");
+    place.write("cube.toml", foggy_cube);
+    std::string screened = squares;
+    screened +=
+        "[[surface]]\nname = \"screen\"\nmaterial = \"grey\"\nrectangle = { corner = [0.2, "
+        "0.2, 0.5], u = [0.3, 0, 0], v = [0, 0.3, 0] }\n";
+    place.write("screened.toml", screened);
+    const auto refused = [&](const std::string& line, const std::vector<std::string>& words) {
+        const auto outcome = place.run("exchange " + line);
+        CAPTURE(line);
+        CHECK(outcome.code == 1);
+        CHECK(outcome.out == "");
+        test::check_one_message(outcome);
+        for (const auto& word : words) CHECK_THAT(outcome.err, Contains(word));
+    };
+    const std::string contour = " --method contour_integration";
+    refused("cube.toml --from haze --to room.floor" + contour,
+            {"haze", "room.floor+", "walked", "reference_pairs"});
+    refused("cube.toml --from room.floor --to room.ceiling" + contour,
+            {"room.floor+", "room.ceiling+", "medium", "uniform_transmittance"});
+    refused("screened.toml --from low+ --to high+" + contour,
+            {"low+", "high+", "in the way", "walked"});
+    for (const std::string method : {"hemicube", "single_plane"})
+        refused("cube.toml --from haze --method " + method, {"haze", "full_cube"});
+    refused("cube.toml --method hemi", {"\"hemi\"", "hemicube", "walked"});
+    refused("cube.toml --from flor", {"\"flor\"", "room.floor+"});
+    CHECK(place.run("exchange cube.toml --tolerance 2").code == 2);
+    CHECK(place.run("exchange").code == 2);
+}
+
+TEST_CASE("One transmittance a pair, if asked for") {
+    const test::Workplace place("exchange");
+    place.write("cube.toml", foggy_cube);
+    const auto area =
+        areas(place.good("exchange cube.toml --from room.floor --to room.ceiling --method "
+                         "contour_integration --set solve.uniform_transmittance=true"));
+    // The vacuum's figure times the transmittance of the metre between the middles.
+    CHECK(area.at("room.floor+,room.ceiling+") ==
+          Approx(0.199824895698387 * std::exp(-1.0)).epsilon(1e-12));
+}
