@@ -63,8 +63,9 @@ inline std::vector<std::size_t> groups_of(const radiosity::Enclosure& enclosure,
 }
 
 // Σ_i∈a Σ_j∈b S_ij of walked rows, for all groups: [a][b].
-inline std::vector<std::vector<double>> group_exchange(const Cube& cube, std::size_t rays,
-                                                       std::uint64_t seed) {
+inline std::vector<std::vector<double>> group_exchange(
+    const Cube& cube, std::size_t rays, std::uint64_t seed,
+    const radiosity::ExchangeSettings& settings = {}) {
     const auto enclosure = cube_enclosure(cube);
     const radiosity::Forest forest(enclosure.mesh);
     const auto elements = radiosity::elements_of_leaves(enclosure, forest);
@@ -72,7 +73,7 @@ inline std::vector<std::vector<double>> group_exchange(const Cube& cube, std::si
     const std::size_t count = 6 + cube.size[0] * cube.size[1] * cube.size[2];
     const auto areas =
         radiosity::all_rows(radiosity::exchange_walked, {enclosure, forest, elements},
-                            {.rays = rays, .seed = seed, .progress = {}});
+                            {.rays = rays, .seed = seed, .settings = settings, .progress = {}});
     std::vector<std::vector<double>> sums(count, std::vector<double>(count, 0.0));
     for (std::size_t i = 0; i < areas.rows(); ++i)
         for (std::size_t k = areas.starts[i]; k < areas.starts[i + 1]; ++k)
