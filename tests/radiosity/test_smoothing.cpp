@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mesh/input_error.h"
+#include "radiosity/report_json.h"
 #include "support/catch.h"
 #include "support/random_rays.h"
 
@@ -268,4 +269,22 @@ TEST_CASE("Smoothing refuses level of detail", "[smoothing]") {
     CHECK_THROWS_AS(check_smoothing(Smoothing::least_squares, 5.0), mesh::InputError);
     CHECK_NOTHROW(check_smoothing(Smoothing::none, 5.0));
     CHECK_NOTHROW(check_smoothing(Smoothing::least_squares, 0.0));
+}
+
+TEST_CASE("Reports say what smoothing did, files without it too", "[smoothing]") {
+    Report report;
+    CHECK(report_to_json(report, Costs::kept).find("smoothing") == std::string::npos);
+    CHECK_FALSE(report_from_json(report_to_json(report, Costs::kept)).smoothing);
+    report.smoothing = SmoothingReport{Smoothing::scaling, 1e-7, 0.3, 0.5, 0.25, 7, 42, false};
+    const auto read = report_from_json(report_to_json(report, Costs::left_out));
+    REQUIRE(read.smoothing);
+    CHECK(read.smoothing->method == Smoothing::scaling);
+    CHECK(read.smoothing->raw_closure_error == 1e-7);
+    CHECK(read.smoothing->raw_reciprocity_error == 0.3);
+    CHECK(read.smoothing->moved_max == 0.5);
+    CHECK(read.smoothing->moved_mean == 0.25);
+    CHECK(read.smoothing->clamped == 7);
+    CHECK(read.smoothing->iterations == 42);
+    CHECK_FALSE(read.smoothing->converged);
+    CHECK_THROWS_AS(smoothing_named("ironing"), mesh::InputError);
 }
