@@ -12,6 +12,8 @@
 #include "mesh/file_bytes.h"
 #include "mesh/input_error.h"
 #include "radiosity/exchange_table.h"
+#include "radiosity/report_json.h"
+#include "radiosity/smoothing.h"
 
 namespace tyndall::cli {
 namespace {
@@ -85,11 +87,14 @@ Json as_json(const ExchangeTable& table, const std::string& method) {
         entries.push_back(
             {{"from", entry.from}, {"to", entry.to}, {"exchange_area", entry.exchange_area}});
     const auto known = [](double value) { return std::isnan(value) ? Json() : Json(value); };
-    return {{"method", method},
-            {"entries", entries},
-            {"closure_error", known(table.closure_error)},
-            {"reciprocity_error", known(table.reciprocity_error)},
-            {"lost_rays", table.lost_rays}};
+    Json json{{"method", method},
+              {"entries", entries},
+              {"closure_error", known(table.closure_error)},
+              {"reciprocity_error", known(table.reciprocity_error)}};
+    if (table.smoothing)
+        json["smoothing"] = Json::parse(radiosity::smoothing_to_json(*table.smoothing));
+    json["lost_rays"] = table.lost_rays;
+    return json;
 }
 
 std::string checks(const ExchangeTable& table) {
@@ -97,8 +102,17 @@ std::string checks(const ExchangeTable& table) {
         return std::isnan(value) ? std::string("not known from these pairs")
                                  : fmt::format("{:.2g}", value);
     };
-    return fmt::format("closure error     {}\nreciprocity error {}\n", text(table.closure_error),
-                       text(table.reciprocity_error));
+    if (!table.smoothing)
+        return fmt::format("closure error     {}\nreciprocity error {}\n",
+                           text(table.closure_error), text(table.reciprocity_error));
+    const radiosity::SmoothingReport& s = *table.smoothing;
+    return fmt::format(
+        "closure error     {} raw, {} smoothed{}\nreciprocity error {} raw, {} smoothed\n"
+        "smoothing         {}: rows moved by {:.2g} at most, {:.2g} in the mean\n",
+        text(s.raw_closure_error), text(table.closure_error),
+        s.converged ? "" : ": rows cannot be made to close; try more rays",
+        text(s.raw_reciprocity_error), text(table.reciprocity_error),
+        radiosity::smoothing_name(s.method), s.moved_max, s.moved_mean);
 }
 
 int exchange(const PairOptions& given, const CommonFlags& flags) {

@@ -45,6 +45,12 @@ std::string summary_text(const radiosity::Report& report, const RunFacts& facts)
                         report.solver.converged ? "" : ", not converged");
     text += fmt::format("checks   energy balance {:.1e}, direct power {:.1e}, closure {:.1e}\n",
                         report.energy_balance, report.direct_power_check, report.closure_error);
+    if (const auto& s = report.smoothing)
+        text += fmt::format(
+            "rows     moved by {:.1e} in the mean, {:.1e} at most, to mend reciprocity ({:.1e}) "
+            "and "
+            "closure ({:.1e})\n",
+            s->moved_mean, s->moved_max, s->raw_reciprocity_error, s->raw_closure_error);
     text += fmt::format("cost     {:.1f} s, {:.1f} CPU s, {:.0f} MB\n",
                         radiosity::wall_seconds() - facts.began, radiosity::cpu_seconds(),
                         static_cast<double>(radiosity::peak_memory_bytes()) / 1e6);

@@ -15,6 +15,7 @@ using mesh::Point;
 constexpr double process_bytes = 35e6;
 constexpr double element_bytes = 800.0, element_band_bytes = 300.0;
 constexpr double row_entry_bytes = 8.0;    // column and value
+constexpr double smoothing_bytes = 37.0;   // beside these while rows are smoothed (smoothing.h)
 constexpr double moment_bytes = 12.0;      // of an entry, where elements are linear
 constexpr double crossings = 10.0;         // elements that a ray of a row meets
 constexpr double start_elements = 5500.0;  // of the coarse solution, if the base mesh has fewer
@@ -92,7 +93,11 @@ void foresee_memory(const SceneFile& file, const radiosity::Enclosure& e, SceneS
     const bool moments = file.solve.radiance == radiosity::Radiance::linear &&
                          !(file.solve.row_detail > 0.0) &&
                          file.solve.start != radiosity::Start::single_zone;
-    const double rows = coarse * per_row * (row_entry_bytes + (moments ? moment_bytes : 0.0));
+    const bool smoothed = file.solve.exchange_settings.smoothing != radiosity::Smoothing::none;
+    // Moments of smoothed rows: those as made, and those of the union, twice as many.
+    const double moment = moments ? moment_bytes * (smoothed ? 3.0 : 1.0) : 0.0;
+    const double rows =
+        coarse * per_row * (row_entry_bytes + (smoothed ? smoothing_bytes : 0.0) + moment);
     double pixels = 0.0;
     for (const auto& camera : file.cameras)
         pixels = std::max(pixels, static_cast<double>(camera.width * camera.height));

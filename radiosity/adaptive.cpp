@@ -14,6 +14,7 @@
 #include "radiosity/incident_lit.h"
 #include "radiosity/leaf_light.h"
 #include "radiosity/resources.h"
+#include "radiosity/smoothing.h"
 #include "radiosity/solve_report.h"
 #include "radiosity/start_elements.h"
 #include "radiosity/thick_zones.h"
@@ -375,6 +376,7 @@ Solution solve_adaptively(std::shared_ptr<const Enclosure> enclosure, const Solv
             fmt::format("level of detail in rows (row_detail) is made by walking, not by \"{}\". "
                         "Set row_detail to 0, or exchange to \"walked\".",
                         options.exchange));
+    check_smoothing(options.exchange_settings.smoothing, options.row_detail);
     if (options.solver != "gmres")
         throw mesh::InputError(
             fmt::format("there is no solver \"{}\". Choose \"gmres\".", options.solver));

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "radiosity/point_set.h"
+#include "radiosity/smoothing.h"
 
 namespace tyndall::radiosity {
 namespace {
@@ -39,19 +39,43 @@ void reserve(ExchangeAreas& areas, ExchangeMethod method, const Discretization& 
     areas.columns.reserve(all + all / 10);
     areas.values.reserve(all + all / 10);
     if (options.radiance == Radiance::linear) areas.moments.reserve(all + all / 10);
+    if (options.settings.smoothing != Smoothing::none) areas.remainders.reserve(all + all / 10);
 }
 
-// What moments of a row multiply, one an element and 0 for outside.
-std::vector<glm::vec3> gradients_of(const ExchangeAreas& areas, std::span<const double> x) {
-    std::vector<glm::vec3> gradients = areas.gradients->of(x);
+// Adds Σ_j M_ij · g_j to the sums of all rows, given g one an element; outside has none.
+template <class Vector>
+void add_moments(const ExchangeAreas& areas, std::vector<Vector> gradients,
+                 std::vector<double>& sums) {
     gradients.emplace_back(0.0f);
-    return gradients;
+    tbb::parallel_for(std::size_t(0), sums.size(), [&](std::size_t i) {
+        double sum = sums[i];
+        for (std::size_t k = areas.starts[i]; k < areas.starts[i + 1]; ++k)
+            sum += glm::dot(Vector(areas.moments[k]), gradients[areas.columns[k]]);
+        sums[i] = sum;
+    });
 }
 
 }  // namespace
 
+void append(ExchangeAreas& areas, const Row& row, Precision precision) {
+    areas.columns.insert(areas.columns.end(), row.columns.begin(), row.columns.end());
+    if (precision == Precision::single_sums) {
+        append_rounded(row.exchange_areas, areas.values);
+    } else {
+        for (const double value : row.exchange_areas) {
+            areas.values.push_back(static_cast<float>(value));
+            areas.remainders.push_back(
+                static_cast<float>(value - static_cast<double>(areas.values.back())));
+        }
+    }
+    areas.moments.insert(areas.moments.end(), row.moments.begin(), row.moments.end());
+    areas.starts.push_back(areas.columns.size());
+}
+
 ExchangeAreas all_rows(ExchangeMethod method, const Discretization& discretization,
                        const ExchangeOptions& options) {
+    const Smoothing smoothing = options.settings.smoothing;
+    check_smoothing(smoothing, options.detail);
     std::vector<ElementId> rows(discretization.elements.size());
     for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = ElementId(i);
     ExchangeAreas areas;
@@ -70,12 +94,11 @@ ExchangeAreas all_rows(ExchangeMethod method, const Discretization& discretizati
     }
     reserve(areas, method, discretization, chosen);
     method(discretization, rows, chosen, [&](const Row& row) {
-        areas.columns.insert(areas.columns.end(), row.columns.begin(), row.columns.end());
-        append_rounded(row.exchange_areas, areas.values);
-        areas.moments.insert(areas.moments.end(), row.moments.begin(), row.moments.end());
-        areas.starts.push_back(areas.columns.size());
+        append(areas, row,
+               smoothing == Smoothing::none ? Precision::single_sums : Precision::doubled);
     });
-    return areas;
+    if (smoothing == Smoothing::none) return areas;
+    return smooth(std::move(areas), discretization.elements, options.band, smoothing);
 }
 
 std::vector<double> multiply(const ExchangeAreas& areas, const Elements& elements,
@@ -88,17 +111,21 @@ std::vector<double> multiply(const ExchangeAreas& areas, const Elements& element
     } else {
         values = areas.levels.pull(x);
     }
-    const bool linear = !areas.moments.empty();
-    const auto gradients = linear ? gradients_of(areas, x) : std::vector<glm::vec3>();
+    const bool remainders = !areas.remainders.empty();
     std::vector<double> result(areas.rows());
     tbb::parallel_for(std::size_t(0), result.size(), [&](std::size_t i) {
         double sum = 0.0;
         for (std::size_t k = areas.starts[i]; k < areas.starts[i + 1]; ++k)
             sum += static_cast<double>(areas.values[k]) * values[areas.columns[k]];
-        for (std::size_t k = areas.starts[i]; linear && k < areas.starts[i + 1]; ++k)
-            sum += glm::dot(areas.moments[k], gradients[areas.columns[k]]);
+        for (std::size_t k = areas.starts[i]; remainders && k < areas.starts[i + 1]; ++k)
+            sum += static_cast<double>(areas.remainders[k]) * values[areas.columns[k]];
         result[i] = sum;
     });
+    // Rows in double precision are for solutions to as many digits.
+    if (!areas.moments.empty() && remainders)
+        add_moments(areas, areas.gradients->unrounded(x), result);
+    else if (!areas.moments.empty())
+        add_moments(areas, areas.gradients->of(x), result);
     return result;
 }
 
@@ -107,7 +134,7 @@ double entry(const ExchangeAreas& areas, std::size_t row, std::uint32_t column) 
     const auto end = areas.columns.begin() + static_cast<std::ptrdiff_t>(areas.starts[row + 1]);
     const auto found = std::lower_bound(begin, end, column);
     return found != end && *found == column
-               ? areas.values[static_cast<std::size_t>(found - areas.columns.begin())]
+               ? areas.value(static_cast<std::size_t>(found - areas.columns.begin()))
                : 0.0;
 }
 
@@ -121,7 +148,7 @@ double closure_error(const ExchangeAreas& areas, const Elements& elements, std::
         const double capacity = elements.capacity[i * elements.bands + band];
         if (!(capacity > 0.0)) continue;
         double sum = 0.0;
-        for (std::size_t k = areas.starts[i]; k < areas.starts[i + 1]; ++k) sum += areas.values[k];
+        for (std::size_t k = areas.starts[i]; k < areas.starts[i + 1]; ++k) sum += areas.value(k);
         worst = std::max(worst, std::abs(sum - capacity) / capacity);
     }
     return worst;

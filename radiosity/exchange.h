@@ -4,6 +4,7 @@
 #include <atomic>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -56,22 +57,48 @@ using RowSink = std::function<void(const Row&)>;
 using ExchangeMethod = void (*)(const Discretization&, std::span<const ElementId> rows,
                                 const ExchangeOptions&, const RowSink&);
 
+// What smoothing (smoothing.h) did to rows, and what it had to mend.
+struct SmoothingReport {
+    Smoothing method = Smoothing::none;
+    double raw_closure_error = 0.0;      // of the rows as they were made [-]
+    double raw_reciprocity_error = 0.0;  // the same [-]
+    // Σ_j |S'_ij − S_ij| / c_i: how far rows were moved, the farthest and the mean of all [-].
+    double moved_max = 0.0, moved_mean = 0.0;
+    std::size_t clamped = 0;     // entries that least squares would make negative: they are 0
+    std::size_t iterations = 0;  // passes over the entries
+    bool converged = true;       // rows close as asked
+};
+
 // Rows in compressed form; row i is [starts[i], starts[i+1]).
 struct ExchangeAreas {
     std::vector<std::size_t> starts{0};
     std::vector<std::uint32_t> columns;
     std::vector<float> values;       // so rounded that a row keeps its sum [m^2]
+    std::vector<float> remainders;   // what that leaves of values in double precision: smoothed
+                                     // rows have them; empty: it is not kept [m^2]
     std::vector<glm::vec3> moments;  // of the entries; empty: elements hold constants [m^3]
     RowLevels levels;                // what columns beyond outside stand for; empty: there are none
     std::shared_ptr<const ElementGradients> gradients;  // that the moments multiply
+    std::optional<SmoothingReport> smoothing;           // of rows that were smoothed
 
+    double value(std::size_t k) const {
+        const auto value = static_cast<double>(values[k]);
+        return remainders.empty() ? value : value + static_cast<double>(remainders[k]);
+    }
     std::size_t rows() const { return starts.size() - 1; }
     std::size_t memory() const {
-        return starts.size() * 8 + columns.size() * 4 + values.size() * 4 +
+        return starts.size() * 8 + columns.size() * 4 + values.size() * 4 + remainders.size() * 4 +
                moments.size() * sizeof(glm::vec3) + levels.memory() +
                (gradients ? gradients->memory() : 0);
     }
 };
+
+// How rows are kept: in single precision with their sums, or with the first 48 bits of a double's
+// 53 (values and remainders), which takes 4 bytes more an entry.
+enum class Precision { single_sums, doubled };
+
+// Adds a row to those there are, all in one precision.
+void append(ExchangeAreas& areas, const Row& row, Precision precision);
 
 // Σ_j S_ij x_j of every row, outside left out, for x given an element; with moments M for x linear
 // in each element, its gradients g those of `gradients`: Σ_j S_ij x_j + M_ij · g_j (31). Cost: one
@@ -87,7 +114,9 @@ double to_outside(const ExchangeAreas& areas, const Elements& elements, std::siz
 
 // All rows of all elements by one method; with options.detail also the levels above the elements,
 // where these are leaves of the forest, and with Radiance::linear moments; not both: a far node's
-// mean is all that level of detail keeps of it. Memory: that of the result, and a batch of rows.
+// mean is all that level of detail keeps of it. With settings.smoothing the rows are smoothed when
+// all are there. Memory: that of the result, and a batch of rows.
+// Errors: mesh::InputError for smoothing with level of detail.
 ExchangeAreas all_rows(ExchangeMethod method, const Discretization& discretization,
                        const ExchangeOptions& options);
 

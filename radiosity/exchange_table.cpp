@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 
+#include "radiosity/smoothing.h"
 #include "radiosity/start_elements.h"
 
 namespace tyndall::radiosity {
@@ -27,6 +28,32 @@ class Table {
 
     ExchangeTable make(const std::vector<std::string>& from, const std::vector<std::string>& to) {
         options_.lost_rays = &lost_;
+        ExchangeTable table;
+        if (options_.settings.smoothing == Smoothing::none)
+            make_pairs(from, to);
+        else
+            table.smoothing = make_smoothed();
+        for (const auto& a : from)
+            for (const auto& b : to)
+                if (a != "outside" || b != "outside") table.entries.push_back({a, b, sum(a, b)});
+        const bool all = table.smoothing.has_value();
+        table.closure_error = all ? closure_error(names(), names()) : closure_error(from, to);
+        table.reciprocity_error =
+            all ? reciprocity_error(names(), names()) : reciprocity_error(from, to);
+        table.lost_rays = lost_;
+        return table;
+    }
+
+  private:
+    using Pair = std::pair<std::string, std::string>;
+
+    std::vector<std::string> names() const {
+        std::vector<std::string> result;
+        for (const auto& [name, members] : members_) result.push_back(name);
+        return result;
+    }
+
+    void make_pairs(const std::vector<std::string>& from, const std::vector<std::string>& to) {
         const bool from_outside = std::ranges::find(from, "outside") != from.end();
         auto rows = elements_of(from);
         std::erase(rows, ElementId(elements_.outside()));
@@ -38,18 +65,45 @@ class Table {
             std::erase(others, ElementId(elements_.outside()));
             if (from_outside) add_rows(others, {ElementId(elements_.outside())}, band, true);
         }
-        ExchangeTable table;
-        for (const auto& a : from)
-            for (const auto& b : to)
-                if (a != "outside" || b != "outside") table.entries.push_back({a, b, sum(a, b)});
-        table.closure_error = closure_error(from, to);
-        table.reciprocity_error = reciprocity_error(table);
-        table.lost_rays = lost_;
-        return table;
     }
 
-  private:
-    using Pair = std::pair<std::string, std::string>;
+    // Smoothing needs every row whole. Leaves the smoothed sums.
+    SmoothingReport make_smoothed() {
+        std::vector<ElementId> rows(elements_.size());
+        for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = ElementId(i);
+        std::vector<ExchangeAreas> bands(enclosure_.bands);
+        for (std::size_t band = 0; band < bands.size(); ++band) {
+            options_.band = band;
+            method_.method({enclosure_, forest_, elements_}, rows, options_,
+                           [&](const Row& row) { append(bands[band], row, Precision::doubled); });
+        }
+        set_sums(bands);
+        const double raw_closure = closure_error(names(), names());
+        const double raw_reciprocity = reciprocity_error(names(), names());
+        std::optional<SmoothingReport> report;
+        for (std::size_t band = 0; band < bands.size(); ++band) {
+            bands[band] =
+                smooth(std::move(bands[band]), elements_, band, options_.settings.smoothing);
+            const SmoothingReport& one = *bands[band].smoothing;
+            report = report ? worse_of(*report, one) : one;
+        }
+        report->raw_closure_error = raw_closure;
+        report->raw_reciprocity_error = raw_reciprocity;
+        set_sums(bands);
+        return *report;
+    }
+
+    void set_sums(const std::vector<ExchangeAreas>& bands) {
+        sums_.clear();
+        for (std::size_t band = 0; band < bands.size(); ++band)
+            for (std::size_t i = 0; i < bands[band].rows(); ++i)
+                for (std::size_t k = bands[band].starts[i]; k < bands[band].starts[i + 1]; ++k) {
+                    const auto there = name(ElementId(bands[band].columns[k]));
+                    add(name(ElementId(i)), there, band, bands[band].value(k));
+                    if (there == "outside")
+                        add(there, name(ElementId(i)), band, bands[band].value(k));
+                }
+    }
 
     std::vector<ElementId> elements_of(const std::vector<std::string>& names) const {
         std::vector<ElementId> result;
@@ -76,11 +130,15 @@ class Table {
                 if (!std::ranges::binary_search(columns, column)) continue;
                 Pair pair{name(row.receiver), name(column)};
                 if (turned) std::swap(pair.first, pair.second);
-                Spectrum& sums = sums_[pair];
-                sums.resize(enclosure_.bands);
-                sums[band] += row.exchange_areas[k];
+                add(pair.first, pair.second, band, row.exchange_areas[k]);
             }
         });
+    }
+
+    void add(const std::string& from, const std::string& to, std::size_t band, double area) {
+        Spectrum& sums = sums_[{from, to}];
+        sums.resize(enclosure_.bands);
+        sums[band] += area;
     }
 
     Spectrum sum(const std::string& from, const std::string& to) const {
@@ -109,18 +167,20 @@ class Table {
         return worst;
     }
 
-    double reciprocity_error(const ExchangeTable& table) const {
+    double reciprocity_error(const std::vector<std::string>& from,
+                             const std::vector<std::string>& to) const {
         double difference = 0.0, total = 0.0;
-        for (const auto& entry : table.entries) {
-            if (entry.from == entry.to || entry.from == "outside" || entry.to == "outside")
-                continue;
-            const auto back = sums_.find({entry.to, entry.from});
-            if (back == sums_.end()) continue;
-            for (std::size_t b = 0; b < enclosure_.bands; ++b) {
-                difference += std::abs(entry.exchange_area[b] - back->second[b]);
-                total += entry.exchange_area[b];
+        for (const auto& a : from)
+            for (const auto& c : to) {
+                if (a == c || a == "outside" || c == "outside") continue;
+                const auto back = sums_.find({c, a});
+                if (back == sums_.end()) continue;
+                const Spectrum forth = sum(a, c);
+                for (std::size_t b = 0; b < enclosure_.bands; ++b) {
+                    difference += std::abs(forth[b] - back->second[b]);
+                    total += forth[b];
+                }
             }
-        }
         return total > 0.0 ? difference / total : unknown;
     }
 

@@ -17,6 +17,8 @@ struct ExchangeTable {
     // max |Σ_to S − c| / c over whole sides and media, and Σ|S_ij − S_ji| / Σ S_ij; NaN where the
     // pairs asked for do not tell [-].
     double closure_error, reciprocity_error;
+    // With settings.smoothing: raw errors are those two before, of whole sides and media.
+    std::optional<SmoothingReport> smoothing;
     std::size_t lost_rays = 0;
 };
 
@@ -25,10 +27,12 @@ std::vector<std::string> exchange_names(const Enclosure& enclosure);
 
 // Purpose: the exchange area of every ordered pair of `from` and `to` (exchange_names), sums over
 //   the flat pieces of a side and the connected parts of a medium (Start::single_zone). That from
-//   outside is that to outside, by reciprocity; outside to outside is left out.
+//   outside is that to outside, by reciprocity; outside to outside is left out. With
+//   settings.smoothing all rows are made and smoothed (smoothing.h), whatever is asked for, and
+//   both errors are known.
 // Errors: what the method throws for a pair that it cannot do.
 // Cost: the method's, of the rows of `from` alone, and the columns of `to` where it can leave out
-//   others.
+//   others; of all pairs with smoothing.
 ExchangeTable exchange_table(const Enclosure& enclosure, const NamedExchangeMethod& method,
                              const ExchangeOptions& options, const std::vector<std::string>& from,
                              const std::vector<std::string>& to);

@@ -128,7 +128,7 @@ class Walker {
 template <class Accumulator>
 void make_rows(const Discretization& discretization, std::span<const ElementId> rows,
                const ExchangeOptions& options, const RowSink& sink) {
-    const PointSet points(options.rays);
+    const PointSet points(options.rays, options.settings.point_set);
     const Walker walker(discretization, options, points);
     const std::size_t columns =
         options.levels ? options.levels->columns() : discretization.elements.size() + 1;

@@ -16,7 +16,8 @@ namespace tyndall::radiosity {
 // Valid for: any mesh, any occlusion, homogeneous base tets. Rows close by construction, entries
 // are
 //   ≥ 0, self terms included. Reciprocity holds at the rate of the point set only.
-// Cost: rays × tets crossed a row. Error: about 1/D^0.75 with the Sobol' set for smooth rows.
+// Cost: rays × tets crossed a row. Error: about 1/D^0.75 with the Sobol' set for smooth rows;
+//   settings.point_set has others (point_set.h).
 // Source: zonal method of Hottel & Sarofim (1967), Rushmeier & Torrance (1987); Sobol' points after
 // Owen (1995).
 void exchange_walked(const Discretization& discretization, std::span<const ElementId> rows,

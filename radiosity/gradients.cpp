@@ -120,7 +120,16 @@ std::size_t ElementGradients::memory() const {
 }
 
 std::vector<glm::vec3> ElementGradients::of(std::span<const double> x) const {
-    std::vector<glm::vec3> result(x.size());
+    return gradients<glm::vec3>(x);
+}
+
+std::vector<Direction> ElementGradients::unrounded(std::span<const double> x) const {
+    return gradients<Direction>(x);
+}
+
+template <class Vector>
+std::vector<Vector> ElementGradients::gradients(std::span<const double> x) const {
+    std::vector<Vector> result(x.size());
     tbb::parallel_for(std::size_t(0), x.size(), [&](std::size_t i) {
         Direction sum(0.0);
         for (std::size_t k = starts_[i]; k < starts_[i + 1]; ++k)

@@ -31,8 +31,14 @@ class ElementGradients {
     // g of every element, given x of every element [x per m]. Cost: one pass over the neighbours,
     // in parallel.
     std::vector<glm::vec3> of(std::span<const double> x) const;
+    // The same without rounding to single precision: as exactly linear in x as doubles are, which
+    // solutions to more than nine digits need.
+    std::vector<Direction> unrounded(std::span<const double> x) const;
 
   private:
+    template <class Vector>
+    std::vector<Vector> gradients(std::span<const double> x) const;
+
     std::vector<std::size_t> starts_;  // of every element, into the arrays below
     std::vector<std::uint32_t> neighbours_;
     std::vector<glm::vec3> weights_;  // [1/m]

@@ -1,5 +1,7 @@
 #include "radiosity/point_set.h"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
@@ -55,6 +57,47 @@ std::uint32_t scramble(std::uint32_t x, std::uint32_t seed) {
     return reverse_bits(x);
 }
 
+// Cells along four dimensions: the largest product up to `count`, of those the most even.
+std::array<std::size_t, 4> grid_of(std::size_t count) {
+    std::array<std::size_t, 4> best{1, 1, 1, 1};
+    std::size_t most = 0, spread = 0;
+    const double even = std::sqrt(std::sqrt(static_cast<double>(count)));
+    const auto low = static_cast<std::size_t>(std::max(1.0, even / 2.0));
+    const auto high = static_cast<std::size_t>(even * 1.5) + 1;
+    for (std::size_t a = low; a <= high; ++a)
+        for (std::size_t b = a; b <= high; ++b)
+            for (std::size_t c = b; c <= high; ++c) {
+                const std::size_t d = count / (a * b * c), product = a * b * c * d;
+                if (d < c || product < most || (product == most && d - a >= spread)) continue;
+                most = product;
+                spread = d - a;
+                best = {a, c, b, d};  // places and directions alike
+            }
+    return best;
+}
+
+// A permutation of 0 … count − 1 that depends on `seed`: bijections of the numbers below the next
+// power of two, again and again until the number is below count.
+std::size_t permuted(std::size_t index, std::size_t count, std::uint64_t seed) {
+    const std::uint64_t mask = std::bit_ceil(count) - 1;
+    const int half = std::max(1, static_cast<int>(std::bit_width(mask)) / 2);
+    std::uint64_t x = index;
+    do {
+        for (std::uint64_t round = 0; round < 4; ++round) {
+            const std::uint64_t key = hash_seed(seed, round);
+            x = (x ^ key) & mask;
+            x = (x * (key >> 20 | 1u)) & mask;
+            x ^= x >> half;
+        }
+    } while (x >= count);
+    return x;
+}
+
+// Uniform in [0, 1), one for every (seed, index).
+double uniform_number(std::uint64_t seed, std::uint64_t index) {
+    return 0x1p-53 * static_cast<double>(hash_seed(seed, index) >> 11);
+}
+
 }  // namespace
 
 std::uint64_t hash_seed(std::uint64_t seed, std::uint64_t index) {
@@ -64,7 +107,10 @@ std::uint64_t hash_seed(std::uint64_t seed, std::uint64_t index) {
     return h ^ (h >> 31);
 }
 
-PointSet::PointSet(std::size_t count) : points_(count) {
+PointSet::PointSet(std::size_t count, PointSetKind kind) : kind_(kind), count_(count) {
+    if (kind == PointSetKind::stratified) cells_ = grid_of(count);
+    if (kind != PointSetKind::sobol) return;
+    points_.resize(count);
     for (std::size_t i = 0; i < count; ++i)
         for (std::size_t d = 0; d < point_set_dimensions; ++d) {
             std::uint32_t x = 0;
@@ -76,7 +122,34 @@ PointSet::PointSet(std::size_t count) : points_(count) {
 
 std::array<double, point_set_dimensions> PointSet::operator()(std::size_t index,
                                                               std::uint64_t seed) const {
-    std::array<double, point_set_dimensions> result;
+    if (kind_ == PointSetKind::sobol) return sobol(index, seed);
+    if (kind_ == PointSetKind::stratified) return stratified(index, seed);
+    Numbers result;
+    const std::uint64_t own = hash_seed(seed, index);
+    for (std::size_t d = 0; d < point_set_dimensions; ++d) result[d] = uniform_number(own, d);
+    return result;
+}
+
+PointSet::Numbers PointSet::stratified(std::size_t index, std::uint64_t seed) const {
+    Numbers result;
+    const std::uint64_t own = hash_seed(seed, index);
+    for (std::size_t d = 0; d < point_set_dimensions; ++d) result[d] = uniform_number(own, d);
+    result[2] = (static_cast<double>(permuted(index, count_, seed)) + result[2]) /
+                static_cast<double>(count_);
+    std::size_t cell = index;
+    if (index < cells_[0] * cells_[1] * cells_[2] * cells_[3])
+        for (std::size_t k = 0; k < 4; ++k) {
+            double& u = result[k < 2 ? k : k + 1];
+            u = (static_cast<double>(cell % cells_[k]) + u) / static_cast<double>(cells_[k]);
+            cell /= cells_[k];
+        }
+    // Rounding may reach 1.
+    for (double& u : result) u = std::min(u, 1.0 - 0x1p-53);
+    return result;
+}
+
+PointSet::Numbers PointSet::sobol(std::size_t index, std::uint64_t seed) const {
+    Numbers result;
     for (std::size_t d = 0; d < point_set_dimensions; ++d)
         result[d] = 0x1p-32 * scramble(points_[index][d],
                                        static_cast<std::uint32_t>(hash_seed(seed, d) >> 32));

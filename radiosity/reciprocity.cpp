@@ -68,7 +68,7 @@ double reciprocity_error(const ExchangeAreas& areas, const Elements& elements) {
         for (std::size_t k = areas.starts[i]; k < areas.starts[i + 1]; ++k) {
             if (areas.columns[k] == elements.outside()) continue;
             const auto [j, share] = drawer.draw(areas.columns[k], hash_seed(i, k));
-            const double value = areas.values[k];
+            const double value = areas.value(k);
             total += value;
             const double forth = spread_entry(areas, i, j);
             if (!(forth > 0.0)) continue;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "mesh/input_error.h"
+#include "radiosity/smoothing.h"
 
 namespace tyndall::radiosity {
 namespace {
@@ -63,6 +64,30 @@ ErrorParts parts_of(const Json& json) {
     return {number(json.at("elements")), number(json.at("gathers")), number(json.at("coarse"))};
 }
 
+Json smoothing_json(const SmoothingReport& smoothing) {
+    return {{"method", smoothing_name(smoothing.method)},
+            {"raw_closure_error", smoothing.raw_closure_error},
+            {"raw_reciprocity_error", smoothing.raw_reciprocity_error},
+            {"moved_max", smoothing.moved_max},
+            {"moved_mean", smoothing.moved_mean},
+            {"clamped", smoothing.clamped},
+            {"iterations", smoothing.iterations},
+            {"converged", smoothing.converged}};
+}
+
+SmoothingReport smoothing_of(const Json& json) {
+    SmoothingReport smoothing;
+    smoothing.method = smoothing_named(json.at("method").get<std::string>());
+    smoothing.raw_closure_error = number(json.at("raw_closure_error"));
+    smoothing.raw_reciprocity_error = number(json.at("raw_reciprocity_error"));
+    smoothing.moved_max = number(json.at("moved_max"));
+    smoothing.moved_mean = number(json.at("moved_mean"));
+    smoothing.clamped = json.at("clamped").get<std::size_t>();
+    smoothing.iterations = json.at("iterations").get<std::size_t>();
+    smoothing.converged = json.at("converged").get<bool>();
+    return smoothing;
+}
+
 Report report_of(const Json& json) {
     Report report;
     report.patches = json.at("patches").get<std::size_t>();
@@ -75,6 +100,8 @@ Report report_of(const Json& json) {
                      solver.at("converged").get<bool>()};
     report.closure_error = number(json.at("closure_error"));
     report.reciprocity_error = number(json.at("reciprocity_error"));
+    if (const auto smoothing = json.find("smoothing"); smoothing != json.end())
+        report.smoothing = smoothing_of(*smoothing);
     report.energy_balance = number(json.at("energy_balance"));
     report.direct_power_check = number(json.at("direct_power_check"));
     for (const auto& [name, power] : json.at("net_power").items())
@@ -106,6 +133,7 @@ std::string report_to_json(const Report& report, Costs costs) {
                       {"converged", report.solver.converged}};
     json["closure_error"] = report.closure_error;
     json["reciprocity_error"] = report.reciprocity_error;
+    if (report.smoothing) json["smoothing"] = smoothing_json(*report.smoothing);
     json["energy_balance"] = report.energy_balance;
     json["direct_power_check"] = report.direct_power_check;
     json["net_power"] = Json::object();
@@ -122,6 +150,10 @@ std::string report_to_json(const Report& report, Costs costs) {
     json["stopped"] = report.stopped;
     json["warnings"] = report.warnings;
     return json.dump(1, ' ', false, Json::error_handler_t::replace);
+}
+
+std::string smoothing_to_json(const SmoothingReport& smoothing) {
+    return smoothing_json(smoothing).dump();
 }
 
 Report report_from_json(const std::string& text) {

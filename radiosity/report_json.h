@@ -14,6 +14,9 @@ enum class Costs { kept, left_out };
 //   number with one band, otherwise an array. Without costs: no seconds, no bytes.
 std::string report_to_json(const Report& report, Costs costs);
 
+// Purpose: its key `smoothing` alone.
+std::string smoothing_to_json(const SmoothingReport& smoothing);
+
 // Purpose: the report again; costs that were left out are 0.
 // Errors: mesh::InputError where it is no such object.
 Report report_from_json(const std::string& text);

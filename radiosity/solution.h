@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "radiosity/exchange.h"
 #include "radiosity/fields.h"
 #include "radiosity/options.h"
 
@@ -47,10 +48,11 @@ struct Report {
     std::size_t solved_elements = 0;     // elements of the coarse solution
     std::vector<PassReport> passes;
     SolverReport solver;
-    double closure_error = 0.0;       // max over rows [-]
-    double reciprocity_error = 0.0;   // of the rows [-]
-    double energy_balance = 0.0;      // imbalance over power brought in [-]
-    double direct_power_check = 0.0;  // (received + escaped − emitted) / emitted [-]
+    double closure_error = 0.0;                // max over rows [-]
+    double reciprocity_error = 0.0;            // of the rows [-]
+    std::optional<SmoothingReport> smoothing;  // of rows that were smoothed; the worst of bands
+    double energy_balance = 0.0;               // imbalance over power brought in [-]
+    double direct_power_check = 0.0;           // (received + escaped − emitted) / emitted [-]
     // Out of each surface side, medium; into outside [W].
     std::map<std::string, Spectrum> net_power;
     // Of what refinement weighs errors by: the picture, or the solution where there is no view or

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "radiosity/balance.h"
+#include "radiosity/smoothing.h"
 
 namespace tyndall::radiosity {
 namespace {
@@ -53,6 +54,14 @@ void warn_of_noise(const ErrorParts& error, const SolveOptions& options, Report&
         options.error, 100.0 * error.gathers, 100.0 * error.coarse));
 }
 
+void warn_of_smoothing(Report& report) {
+    if (report.smoothing && !report.smoothing->converged)
+        report.warnings.push_back(fmt::format(
+            "smoothing did not make rows close: closure error {:.2g} after {} passes. Rows of few "
+            "rays may have no matrix near them that is symmetric and closes: raise solve.rays.",
+            report.closure_error, report.smoothing->iterations));
+}
+
 }  // namespace
 
 Report solve_report(const Enclosure& enclosure, const CoarseSolution& coarse,
@@ -73,6 +82,8 @@ Report solve_report(const Enclosure& enclosure, const CoarseSolution& coarse,
             std::max(report.closure_error, closure_error(coarse.areas(b), coarse.elements(), b));
         report.reciprocity_error = std::max(report.reciprocity_error,
                                             reciprocity_error(coarse.areas(b), coarse.elements()));
+        if (const auto& one = coarse.areas(b).smoothing)
+            report.smoothing = report.smoothing ? worse_of(*report.smoothing, *one) : *one;
     }
     const Balance power = balance(enclosure, coarse, incident_direct, light, ending.escaped_direct);
     report.net_power = power.net_power;
@@ -91,6 +102,7 @@ Report solve_report(const Enclosure& enclosure, const CoarseSolution& coarse,
             fmt::format("refinement ended at max_time = {} s; the estimated error is {:.3g}.",
                         options.max_time, report.estimated_error));
     warn_of_noise(goal, options, report);
+    warn_of_smoothing(report);
     if (ending.limited && std::max(ending.refined_to, goal.elements) > options.error)
         report.warnings.push_back(
             fmt::format("refinement ended at a limit (max_elements = {}, max_memory = {} bytes) "

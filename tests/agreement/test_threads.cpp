@@ -47,6 +47,24 @@ bool same_bits(const std::vector<Affine>& a, const std::vector<Affine>& b) {
 
 }  // namespace
 
+TEST_CASE("Smoothed rows have the same bits at one thread and at two", "[threads][smoothing]") {
+    const Enclosure enclosure = make_enclosure(test::slit_room());
+    const Forest forest(enclosure.mesh);
+    const auto elements = elements_of_leaves(enclosure, forest);
+    const auto rows = [&](std::size_t threads, Smoothing smoothing) {
+        const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+        return all_rows(exchange_walked, {enclosure, forest, elements},
+                        {.rays = 64, .settings = {.smoothing = smoothing}, .progress = {}});
+    };
+    for (const auto smoothing : {Smoothing::least_squares, Smoothing::scaling}) {
+        const ExchangeAreas one = rows(1, smoothing), two = rows(2, smoothing);
+        CHECK(one.columns == two.columns);
+        CHECK(one.values == two.values);
+        CHECK(one.remainders == two.remainders);
+        CHECK(one.smoothing->moved_mean == two.smoothing->moved_mean);
+    }
+}
+
 TEST_CASE("Rows, fields and picture have the same bits at one thread and at two", "[threads]") {
     const Everything one = at_threads(1), two = at_threads(2);
     CHECK(one.areas.starts == two.areas.starts);

@@ -10,6 +10,7 @@
 #include "radiosity/exchange_walked.h"
 #include "radiosity/refine.h"
 #include "support/catch.h"
+#include "support/furnace.h"
 
 using namespace tyndall;
 using namespace tyndall::radiosity;
@@ -34,14 +35,9 @@ Furnace furnace(const std::filesystem::path& path) {
     const auto file = cli::read_scene_file(path);
     Furnace result{make_enclosure(file.scene), {}};
     auto& e = result.enclosure;
-    for (auto& side : e.sides) {
+    for (const auto& side : e.sides)
         result.lamp.push_back(*std::max_element(side.emission.begin(), side.emission.end()) > 0.0);
-        for (std::size_t b = 0; b < e.bands; ++b) side.emission[b] = 1.0 - side.reflectance[b];
-    }
-    for (auto& medium : e.media)
-        for (std::size_t b = 0; b < e.bands; ++b) medium.emission[b] = 1.0 - medium.albedo[b];
-    e.environment.assign(e.bands, 1.0);
-    e.lights.clear();
+    test::make_furnace(e);
     return result;
 }
 

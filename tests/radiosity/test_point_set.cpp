@@ -87,6 +87,67 @@ TEST_CASE("Seeds scramble independently", "[point_set]") {
         }
 }
 
+TEST_CASE("Stratified points: one a cell, and one a stratum of the third", "[point_set]") {
+    struct Grid {
+        std::size_t count;
+        std::array<std::size_t, 4> cells;  // along dimensions 0, 1, 3 and 4
+    };
+    for (const auto& [count, cells] : {Grid{1, {1, 1, 1, 1}}, Grid{16, {2, 2, 2, 2}},
+                                       Grid{64, {2, 4, 2, 4}}, Grid{4096, {8, 8, 8, 8}}}) {
+        const PointSet points(count, PointSetKind::stratified);
+        REQUIRE(points.size() == count);
+        for (std::uint64_t seed = 0; seed < 3; ++seed) {
+            std::set<std::array<std::size_t, 4>> filled;
+            std::set<std::size_t> strata;
+            for (std::size_t k = 0; k < count; ++k) {
+                const auto u = points(k, seed);
+                for (const double coordinate : u) {
+                    REQUIRE(coordinate >= 0.0);
+                    REQUIRE(coordinate < 1.0);
+                }
+                filled.insert(
+                    {std::size_t(u[0] * double(cells[0])), std::size_t(u[1] * double(cells[1])),
+                     std::size_t(u[3] * double(cells[2])), std::size_t(u[4] * double(cells[3]))});
+                strata.insert(std::size_t(u[2] * double(count)));
+            }
+            CAPTURE(count, seed);
+            CHECK(filled.size() == count);
+            CHECK(strata.size() == count);
+        }
+    }
+}
+
+TEST_CASE("Stratified and independent points are uniform over the seeds", "[point_set]") {
+    // Of 7 and of 100 points, which no grid of four dimensions holds all of: the means over 4000
+    // seeds of u, u² and of a product of all; each is known to its deviation over √(4000 count).
+    for (const auto kind : {PointSetKind::stratified, PointSetKind::independent})
+        for (const std::size_t count : {7, 100}) {
+            const PointSet points(count, kind);
+            constexpr int seeds = 4000;
+            std::array<double, point_set_dimensions> mean{}, square{};
+            double product = 0.0;
+            for (int seed = 0; seed < seeds; ++seed)
+                for (std::size_t k = 0; k < count; ++k) {
+                    const auto u = points(k, seed);
+                    double all = 1.0;
+                    for (std::size_t d = 0; d < point_set_dimensions; ++d) {
+                        mean[d] += u[d] / double(seeds * count);
+                        square[d] += u[d] * u[d] / double(seeds * count);
+                        all *= 2.0 * u[d];
+                    }
+                    product += all / double(seeds * count);
+                }
+            CAPTURE(count);
+            // Deviations of u, u² and Π 2u: 0.289, 0.298 and 1.8; five of each.
+            const double n = std::sqrt(double(seeds * count));
+            for (std::size_t d = 0; d < point_set_dimensions; ++d) {
+                CHECK(std::abs(mean[d] - 0.5) < 5.0 * 0.289 / n);
+                CHECK(std::abs(square[d] - 1.0 / 3.0) < 5.0 * 0.298 / n);
+            }
+            CHECK(std::abs(product - 1.0) < 5.0 * 1.8 / n);
+        }
+}
+
 TEST_CASE("Sobol' points beat random ones", "[point_set]") {
     // ∫ Π (u_d² + u_d) du = (5/6)^5; random points of this variance have an error of about
     // 0.41/√n. The rate of a scrambled net for a smooth integrand is nearly n^−1.5.

@@ -81,10 +81,11 @@ inline std::vector<std::vector<double>> group_exchange(const Cube& cube,
 }
 
 // The same of walked rows.
-inline std::vector<std::vector<double>> group_exchange(const Cube& cube, std::size_t rays,
-                                                       std::uint64_t seed) {
+inline std::vector<std::vector<double>> group_exchange(
+    const Cube& cube, std::size_t rays, std::uint64_t seed,
+    const radiosity::ExchangeSettings& settings = {}) {
     return group_exchange(cube, radiosity::exchange_walked,
-                          {.rays = rays, .seed = seed, .progress = {}});
+                          {.rays = rays, .seed = seed, .settings = settings, .progress = {}});
 }
 
 }  // namespace tyndall::test
