@@ -375,6 +375,7 @@ Solution solve_adaptively(std::shared_ptr<const Enclosure> enclosure, const Solv
             fmt::format("level of detail in rows (row_detail) is made by walking, not by \"{}\". "
                         "Set row_detail to 0, or exchange to \"walked\".",
                         options.exchange));
+    require_settings(exchange_method(options.exchange), options.exchange_settings);
     if (options.solver != "gmres")
         throw mesh::InputError(
             fmt::format("there is no solver \"{}\". Choose \"gmres\".", options.solver));

@@ -12,6 +12,7 @@ struct NamedExchangeMethod {
     ExchangeMethod method;
     bool moments = false;  // makes first moments: elements may hold linear functions
     bool detail = false;   // can deposit in coarser elements (ExchangeOptions::detail)
+    bool radius = false;   // knows ExchangeSettings::interaction_radius
 };
 
 // The default first.
@@ -19,5 +20,8 @@ std::span<const NamedExchangeMethod> exchange_methods();
 
 // Errors: mesh::InputError that lists the names there are.
 const NamedExchangeMethod& exchange_method(std::string_view name);
+
+// Errors: mesh::InputError if the settings ask for what the method does not know.
+void require_settings(const NamedExchangeMethod& method, const ExchangeSettings& settings);
 
 }  // namespace tyndall::radiosity

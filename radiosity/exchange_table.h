@@ -26,7 +26,7 @@ std::vector<std::string> exchange_names(const Enclosure& enclosure);
 // Purpose: the exchange area of every ordered pair of `from` and `to` (exchange_names), sums over
 //   the flat pieces of a side and the connected parts of a medium (Start::single_zone). That from
 //   outside is that to outside, by reciprocity; outside to outside is left out.
-// Errors: what the method throws for a pair that it cannot do.
+// Errors: what the method throws for a pair that it cannot do; settings that it does not know.
 // Cost: the method's, of the rows of `from` alone, and the columns of `to` where it can leave out
 //   others.
 ExchangeTable exchange_table(const Enclosure& enclosure, const NamedExchangeMethod& method,
