@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <map>
 
 namespace tyndall::radiosity {
 namespace {
@@ -66,11 +67,49 @@ std::vector<Piece> faces_of(const Piece& piece) {
     if (!piece.solid) return {piece};
     std::vector<Piece> result;
     for (const PieceFace& face : outward_faces(piece)) {
-        Piece side{.normal = face.normal, .extinction = piece.extinction, .start = piece.start};
+        Piece side{.face = true,
+                   .normal = face.normal,
+                   .extinction = piece.extinction,
+                   .start = piece.start};
         std::ranges::copy(face.corners, side.corners.begin());
         measure(side);
         result.push_back(side);
     }
+    return result;
+}
+
+bool straddles(const Piece& a, const Piece& b) {
+    for (std::size_t k = 0; !a.solid && k < b.size(); ++k)
+        if (glm::dot(a.normal, b.corners[k] - a.centre) < -1e-12 * (a.radius + b.radius))
+            return true;
+    return false;
+}
+
+bool behind(const Piece& a, const Piece& b) {
+    if (a.solid) return false;
+    for (std::size_t k = 0; k < b.size(); ++k)
+        if (glm::dot(a.normal, b.corners[k] - a.centre) > 1e-12 * (a.radius + b.radius))
+            return false;
+    return true;
+}
+
+std::vector<Piece> boundary_of(std::span<const Piece> pieces) {
+    using Key = std::array<std::array<double, 3>, 3>;
+    std::map<Key, std::pair<Piece, int>> faces;
+    std::vector<Key> order;
+    for (const Piece& piece : pieces)
+        for (const Piece& face : faces_of(piece)) {
+            Key key;
+            for (int k = 0; k < 3; ++k)
+                key[k] = {face.corners[k].x, face.corners[k].y, face.corners[k].z};
+            std::ranges::sort(key);
+            const auto [place, fresh] = faces.try_emplace(key, face, 0);
+            ++place->second.second;
+            if (fresh) order.push_back(key);
+        }
+    std::vector<Piece> result;
+    for (const Key& key : order)
+        if (const auto& [face, uses] = faces.at(key); uses == 1) result.push_back(face);
     return result;
 }
 

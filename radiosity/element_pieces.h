@@ -10,6 +10,7 @@ namespace tyndall::radiosity {
 struct Piece {
     std::array<Point, 4> corners{};  // a triangle has three
     bool solid = false;              // a tetrahedron
+    bool face = false;               // of a tetrahedron, its normal outward; no patch
     Direction normal{0};             // unit, of a triangle, into the tet
     double extinction = 0.0;         // of the tet that it is in, or looks into [1/m]
     double measure = 0.0;            // area [m^2] or volume [m^3]
@@ -35,6 +36,10 @@ std::array<Piece, 2> bisect(const Piece& piece);
 // The squared length of the longest edge [m^2].
 double longest_edge_squared(const Piece& piece);
 
+// Whether some of b, or all of it, lies behind the plane of a triangle a; no of a tetrahedron a.
+bool straddles(const Piece& a, const Piece& b);
+bool behind(const Piece& a, const Piece& b);
+
 // A face of a tetrahedron.
 struct PieceFace {
     std::array<Point, 3> corners;
@@ -45,6 +50,8 @@ std::array<PieceFace, 4> outward_faces(const Piece& tetrahedron);
 
 // A triangle itself, or the faces of a tetrahedron, with outward normals, as pieces.
 std::vector<Piece> faces_of(const Piece& piece);
+// The same of pieces together: without the faces that two tetrahedra share.
+std::vector<Piece> boundary_of(std::span<const Piece> pieces);
 
 // The pieces of all elements, and of outside.
 class ElementPieces {

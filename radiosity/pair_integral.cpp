@@ -40,15 +40,6 @@ double cosine(const Piece& piece, Direction d) {
     return piece.solid ? 1.0 : glm::dot(piece.normal, d);
 }
 
-// Whether b lies wholly behind the plane of the triangle a.
-bool behind(const Piece& a, const Piece& b) {
-    if (a.solid) return false;
-    for (std::size_t k = 0; k < b.size(); ++k)
-        if (glm::dot(a.normal, b.corners[k] - a.centre) > 1e-12 * (a.radius + b.radius))
-            return false;
-    return true;
-}
-
 // Whether a plane through a face (dot(normal, p) = offset, p relative to the eye) is seen edge-on,
 // to rounding, by an eye this far from it.
 bool edge_on(const PieceFace& face, Point x, double offset) {
@@ -126,7 +117,10 @@ PairIntegral::PairIntegral(const Enclosure& enclosure, std::size_t band, double 
 double PairIntegral::operator()(std::span<const Piece> a, std::span<const Piece> b,
                                 bool same) const {
     Work work;
-    add_members(a, b, same, work);
+    if (uniform(a, b, same))
+        add_faces(boundary_of(a), boundary_of(b), 1.0, work);
+    else
+        add_members(a, b, same, work);
     work.rays = 0;
     while (!work.pairs.empty() && work.error > tolerance_ * work.value && work.rays < most_rays) {
         Pair pair = work.pop();
@@ -145,25 +139,37 @@ double PairIntegral::operator()(std::span<const Piece> a, std::span<const Piece>
 void PairIntegral::add_members(std::span<const Piece> a, std::span<const Piece> b, bool same,
                                Work& work) const {
     for (std::size_t i = 0; i < a.size(); ++i) {
-        if (same && a[i].solid) add_faces({a[i], a[i], 1.0}, work);
+        if (same && a[i].solid) add_faces(faces_of(a[i]), faces_of(a[i]), 1.0, work);
         for (std::size_t j = same ? i + 1 : 0; j < b.size(); ++j)
             add({a[i], b[j], same ? 2.0 : 1.0}, work);
     }
 }
 
-void PairIntegral::add_faces(const Pair& pair, Work& work) const {
-    const auto from = faces_of(pair.a), to = faces_of(pair.b);
-    const Kernel kernel = pair.a.solid ? Kernel::faces : Kernel::patch_face;
+void PairIntegral::add_faces(std::span<const Piece> from, std::span<const Piece> to, double factor,
+                             Work& work) const {
     for (const Piece& f : from)
-        for (const Piece& g : to) add({f, g, pair.factor, kernel}, work);
+        for (const Piece& g : to)
+            add({f, g, factor, f.face ? Kernel::faces : Kernel::patch_face}, work);
+}
+
+bool PairIntegral::uniform(std::span<const Piece> a, std::span<const Piece> b, bool same) const {
+    if (a.empty() || b.empty() || !b[0].solid || a.size() * b.size() == 1) return false;
+    if (!same && a[0].solid) return false;  // far apart, faces cancel: member by member
+    for (const Piece& one : a)
+        for (const Piece& other : b) {
+            if (one.extinction != other.extinction || straddles(one, other)) return false;
+            const double expected = one.extinction * glm::distance(one.centre, other.centre);
+            const double depth = optical_depth(one, one.centre, other, other.centre);
+            if (!(std::abs(depth - expected) <= 1e-9 * expected)) return false;
+        }
+    return true;
 }
 
 bool PairIntegral::uniform(const Pair& pair) const {
     const Piece &a = pair.a, &b = pair.b;
     const double reach = glm::distance(a.centre, b.centre) + a.radius + b.radius;
     if (a.extinction != b.extinction || a.extinction * reach > most_depth) return false;
-    for (std::size_t k = 0; !a.solid && k < b.size(); ++k)
-        if (glm::dot(a.normal, b.corners[k] - a.centre) < -1e-12 * reach) return false;
+    if (straddles(a, b)) return false;
     for (const auto& p : rule_of(a, Degree::five))
         for (const auto& q : rule_of(b, Degree::five)) {
             const Point x = a.at(p.at), y = b.at(q.at);
@@ -178,7 +184,8 @@ void PairIntegral::add(Pair pair, Work& work) const {
     if (pair.kernel == Kernel::points) {
         if (behind(pair.a, pair.b) || behind(pair.b, pair.a)) return;
         if (pair.a.solid && !pair.b.solid) std::swap(pair.a, pair.b);
-        if (pair.b.solid && !far(pair) && uniform(pair)) return add_faces(pair, work);
+        if (pair.b.solid && !far(pair) && uniform(pair))
+            return add_faces(faces_of(pair.a), faces_of(pair.b), pair.factor, work);
     }
     const Estimate one = evaluate(pair, Degree::one), two = evaluate(pair, Degree::two);
     work.rays += one.rays + two.rays;

@@ -23,6 +23,8 @@ namespace tyndall::radiosity {
 //     S_jV_k = Σ_g ∬ (1 − e^{−u}) cosθ_j (n_g·ω) / (π s²) dA_j dA_g:
 //   the divergence theorem, applied to both zones; the terms u − 1 that it leaves free are so
 //   chosen that nothing is singular where the zones touch, or are one.
+//   A cluster of tetrahedra with itself or a patch is taken so as a whole, over its own surface, if
+//   all its members' centres see each other.
 // Subdivision: of all pairs of pieces the one with the largest estimated error has a piece
 //   bisected, until the estimates add up to `tolerance` of the whole, or the rays run out.
 //
@@ -58,9 +60,11 @@ class PairIntegral {
     static double doubt(const Pair& pair);
     void add_members(std::span<const Piece> a, std::span<const Piece> b, bool same,
                      Work& work) const;
-    void add_faces(const Pair& pair, Work& work) const;
+    void add_faces(std::span<const Piece> from, std::span<const Piece> to, double factor,
+                   Work& work) const;
     // Whether all lines between the two lie in one medium, as far as rays tell.
     bool uniform(const Pair& pair) const;
+    bool uniform(std::span<const Piece> a, std::span<const Piece> b, bool same) const;
     void add(Pair pair, Work& work) const;
     void raise(Pair& pair, Work& work) const;
     Estimate evaluate(const Pair& pair, Degree degree) const;
