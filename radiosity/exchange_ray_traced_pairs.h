@@ -11,8 +11,11 @@ namespace tyndall::radiosity {
 // Valid for: any mesh, any occlusion, homogeneous base tets, touching and identical zones; elements
 //   that are leaves or clusters. S_ij and S_ji are the same integral, so that reciprocity holds to
 //   the last bit; rows close as well as their entries are right.
-// Settings: `tolerance`, the relative error that subdivision of a pair aims at. It ends early after
-//   PairIntegral::most_rays shadow rays, where edges of shadows keep a pair from a small tolerance.
+// Settings: `tolerance`, the relative error that subdivision of a pair aims at. It ends early,
+// after
+//   PairIntegral::most_rays shadow rays: where elements touch, errors of 1e-4 to 3e-4 are left then
+//   (unit cubes); where edges of shadows decide, 1e-3 to 1e-2, outside's entries of open scenes
+//   among them.
 //   `interaction_radius`: pairs are left out whose elements, by the balls around them, are farther
 //   apart, and the row's other entries but outside's are scaled so that the row closes: what is far
 //   is taken to shine as what is near does in the mean. Outside is always taken in. The error of H
@@ -21,7 +24,7 @@ namespace tyndall::radiosity {
 // Cost: of all rows, half of elements² pairs; O(pairs) rays. Pairs are evaluated once where both
 //   their rows are asked for and a table of 16 M entries holds these, else once for each. With a
 //   radius `columns` are not heeded.
-// Source: Wallace, Elmquist & Haines (1989); Borel, Gerstl & Powers (1991) for the radius.
+// Source: Wallace, Elmquist & Haines (1989); Borel & Gerstl (1991) for the radius.
 void exchange_ray_traced_pairs(const Discretization& discretization,
                                std::span<const ElementId> rows, const ExchangeOptions& options,
                                const RowSink& sink);

@@ -281,8 +281,7 @@ class PairIntegral::Look {
         const double offset = glm::dot(b_.normal, x - b_.centre);
         if (offset <= 1e-12 * (b_.radius + glm::distance(x, b_.centre))) return;
         begin(std::span(b_.corners).first(3));
-        const Plane target{-b_.normal, offset};
-        add(target, nullptr);
+        add({-b_.normal, offset}, nullptr);
     }
 
   private:

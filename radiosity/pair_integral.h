@@ -30,12 +30,13 @@ namespace tyndall::radiosity {
 //
 // Error: estimated from rules of degree 1, 2 and 5; it falls slowly where the edges of shadows
 //   decide. What falls between all points of a rule is not seen.
-// Cost: of each pair of members some 10 to 60 rays, and then `most_rays` at most.
+// Cost: of each pair of members some 10 to 400 rays, and then `most_rays` at most (points of faces
+//   count as rays).
 // Source: Wallace, Elmquist & Haines (1989), who subdivide the source alone, into parts that they
 //   take for discs; van Oosterom & Strackee (1983) and Lambert (1760) for what polygons subtend.
 class PairIntegral {
   public:
-    static constexpr std::size_t most_rays = 1u << 21;
+    static constexpr std::size_t most_rays = 1u << 20;
 
     PairIntegral(const Enclosure& enclosure, std::size_t band, double tolerance);
 

@@ -143,7 +143,7 @@ TEST_CASE("Ray-traced pairs: zones that share a face, an edge, a corner, nothing
     }
 }
 
-TEST_CASE("Ray-traced pairs: errors fall with the tolerance", "[exchange]") {
+TEST_CASE("Ray-traced pairs: errors fall in proportion to the tolerance", "[exchange]") {
     struct Case {
         std::size_t from, to;
         double extinction, exact;
@@ -151,21 +151,30 @@ TEST_CASE("Ray-traced pairs: errors fall with the tolerance", "[exchange]") {
     const auto file = test::reference("3a_box_dea_extinction");
     const auto exact = [&](const std::string& name) { return test::reference_value(file, name); };
     // In a vacuum the closed forms for two unit squares.
-    for (const auto& c : {Case{4, 5, 0.0, 0.199824895698387}, Case{0, 4, 0.0, 0.200043776075403},
-                          Case{6, 0, 1.0, exact("unit_VS_ownface_x0_kappa1")},
-                          Case{6, 6, 1.0, exact("unit_VV_self_kappa1")}}) {
-        std::vector<double> errors;
-        for (const double tolerance : {0.1, 0.01, 0.001}) {
+    const std::vector<Case> cases{{4, 5, 0.0, 0.199824895698387},
+                                  {0, 4, 0.0, 0.200043776075403},
+                                  {0, 6, 1.0, exact("unit_VS_ownface_x0_kappa1")},
+                                  {6, 6, 1.0, exact("unit_VV_self_kappa1")},
+                                  {0, 6, 5.0, exact("unit_VS_ownface_x0_kappa5")},
+                                  {6, 6, 5.0, exact("unit_VV_self_kappa5")}};
+    std::vector<double> rms;
+    for (const double tolerance : {0.1, 0.01, 0.001}) {
+        double squares = 0.0;
+        for (const auto& c : cases) {
             const double value =
                 in_cube({.extinction = c.extinction}, Start::single_zone, c.from, c.to, tolerance);
-            errors.push_back(std::abs(value / c.exact - 1.0));
-            INFO("from " << c.from << " to " << c.to << ": " << errors.back());
-            CHECK(errors.back() < tolerance);
+            const double error = value / c.exact - 1.0;
+            squares += error * error;
+            INFO("from " << c.from << " to " << c.to << ": " << error);
+            CHECK(std::abs(error) < tolerance);
         }
-        // The error is of the order of the tolerance, often far below by chance: over two decades
-        // it falls by one at least.
-        CHECK(errors[2] < 0.1 * std::max(errors[0], 1e-3));
+        rms.push_back(std::sqrt(squares / static_cast<double>(cases.size())));
     }
+    // Measured: 2.9 %, 0.04 %, 0.02 %; the last where the rays run out. Per decade of tolerance 1.1
+    // decades in the mean.
+    const double order = 0.5 * std::log10(rms[0] / rms[2]);
+    INFO(rms[0] << ", " << rms[1] << ", " << rms[2] << ": order " << order);
+    CHECK(order > 0.8);
 }
 
 TEST_CASE("Ray-traced pairs: past a blocker", "[exchange]") {
@@ -207,16 +216,16 @@ TEST_CASE("Ray-traced pairs: symmetric to the bit, rows close at the tolerance's
     const Forest forest(enclosure.mesh);
     const auto elements = elements_of_leaves(enclosure, forest);
     const Discretization d{enclosure, forest, elements};
-    const auto coarse = dense(d, exchange_ray_traced_pairs, with_tolerance(0.3));
-    const auto fine = dense(d, exchange_ray_traced_pairs, with_tolerance(0.03));
+    const auto coarse = dense(d, exchange_ray_traced_pairs, with_tolerance(0.5));
+    const auto fine = dense(d, exchange_ray_traced_pairs, with_tolerance(0.1));
     for (std::size_t i = 0; i < elements.size(); ++i)
         for (std::size_t j = 0; j < i; ++j) REQUIRE(fine[i][j] == fine[j][i]);
     INFO(worst_closure(coarse, elements) << ", " << worst_closure(fine, elements));
-    CHECK(worst_closure(fine, elements) < 0.03);
+    CHECK(worst_closure(fine, elements) < 0.1);
     CHECK(worst_closure(fine, elements) < 0.5 * worst_closure(coarse, elements));
 
     const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-    CHECK(dense(d, exchange_ray_traced_pairs, with_tolerance(0.3)) == coarse);
+    CHECK(dense(d, exchange_ray_traced_pairs, with_tolerance(0.5)) == coarse);
 }
 
 TEST_CASE("An interaction radius leaves out what is far, and rows close", "[exchange]") {
