@@ -377,6 +377,7 @@ Solution solve_adaptively(std::shared_ptr<const Enclosure> enclosure, const Solv
                         "Set row_detail to 0, or exchange to \"walked\".",
                         options.exchange));
     check_smoothing(options.exchange_settings.smoothing, options.row_detail);
+    require_settings(exchange_method(options.exchange), options.exchange_settings);
     if (options.solver != "gmres")
         throw mesh::InputError(
             fmt::format("there is no solver \"{}\". Choose \"gmres\".", options.solver));

@@ -36,6 +36,7 @@ CoarseSolution::CoarseSolution(const Enclosure& enclosure, const Forest& forest,
                                const SolveOptions& options, const ProgressCallback& progress)
     : enclosure_(enclosure), forest_(forest), options_(options), elements_(std::move(elements)) {
     const NamedExchangeMethod& method = exchange_method(options.exchange);
+    require_settings(method, options.exchange_settings);
     for (std::size_t band = 0; band < enclosure.bands; ++band) {
         std::size_t same = 0;
         while (same < band && !same_extinction(enclosure, same, band)) ++same;

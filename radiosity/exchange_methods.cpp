@@ -9,6 +9,7 @@
 #include "radiosity/exchange_contour_integration.h"
 #include "radiosity/exchange_full_cube.h"
 #include "radiosity/exchange_hemicube.h"
+#include "radiosity/exchange_ray_traced_pairs.h"
 #include "radiosity/exchange_reference_pairs.h"
 #include "radiosity/exchange_single_plane.h"
 #include "radiosity/exchange_walked.h"
@@ -17,13 +18,14 @@ namespace tyndall::radiosity {
 namespace {
 
 constexpr NamedExchangeMethod methods[]{
-    {.name = "walked", .method = exchange_walked, .moments = true, .detail = true},
+    {.name = "walked", .method = exchange_walked, .moments = true, .detail = true, .radius = true},
     {.name = "contour_integration",
      .method = exchange_contour_integration,
      .zones = false,
      .occlusion = false,
      .media = false},
     {.name = "reference_pairs", .method = exchange_reference_pairs},
+    {.name = "ray_traced_pairs", .method = exchange_ray_traced_pairs, .radius = true},
     {.name = "full_cube", .method = exchange_full_cube},
     {.name = "hemicube", .method = exchange_hemicube, .zones = false},
     {.name = "single_plane", .method = exchange_single_plane, .zones = false},
@@ -52,6 +54,17 @@ void refuse_pair(const Discretization& d, std::string_view method, ElementId i, 
     const auto name = [&](ElementId id) { return name_of(d.enclosure, d.forest, d.elements, id); };
     throw mesh::InputError(fmt::format("{} cannot do the pair {}, {}: {}. Those that can: {}.",
                                        method, name(i), name(j), why, fmt::join(able, ", ")));
+}
+
+void require_settings(const NamedExchangeMethod& method, const ExchangeSettings& settings) {
+    if (!(settings.interaction_radius > 0.0) || method.radius) return;
+    std::vector<std::string_view> names;
+    for (const auto& other : methods)
+        if (other.radius) names.push_back(other.name);
+    throw mesh::InputError(
+        fmt::format("exchange method \"{}\" has no interaction radius ({} m is set). Set "
+                    "interaction_radius to 0, or exchange to one of {}.",
+                    method.name, settings.interaction_radius, fmt::join(names, ", ")));
 }
 
 }  // namespace tyndall::radiosity

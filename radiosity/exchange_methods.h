@@ -15,6 +15,7 @@ struct NamedExchangeMethod {
     bool media = true;      //   patches with a medium between them
     bool moments = false;   //   first moments, so that elements hold linear functions
     bool detail = false;    //   deposits in coarser elements (ExchangeOptions::detail)
+    bool radius = false;    //   heeds ExchangeSettings::interaction_radius
 };
 
 // The default first.
@@ -28,5 +29,8 @@ const NamedExchangeMethod& exchange_method(std::string_view name);
 [[noreturn]] void refuse_pair(const Discretization& d, std::string_view method, ElementId i,
                               ElementId j, std::string_view why,
                               bool NamedExchangeMethod::*ability);
+
+// Errors: mesh::InputError if the settings ask for what the method does not know.
+void require_settings(const NamedExchangeMethod& method, const ExchangeSettings& settings);
 
 }  // namespace tyndall::radiosity

@@ -210,6 +210,7 @@ std::vector<std::string> exchange_names(const Enclosure& enclosure) {
 ExchangeTable exchange_table(const Enclosure& enclosure, const NamedExchangeMethod& method,
                              const ExchangeOptions& options, const std::vector<std::string>& from,
                              const std::vector<std::string>& to) {
+    require_settings(method, options.settings);
     return Table(enclosure, method, options).make(from, to);
 }
 

@@ -30,7 +30,7 @@ std::vector<std::string> exchange_names(const Enclosure& enclosure);
 //   outside is that to outside, by reciprocity; outside to outside is left out. With
 //   settings.smoothing all rows are made and smoothed (smoothing.h), whatever is asked for, and
 //   both errors are known.
-// Errors: what the method throws for a pair that it cannot do.
+// Errors: what the method throws for a pair that it cannot do; settings that it does not know.
 // Cost: the method's, of the rows of `from` alone, and the columns of `to` where it can leave out
 //   others; of all pairs with smoothing.
 ExchangeTable exchange_table(const Enclosure& enclosure, const NamedExchangeMethod& method,

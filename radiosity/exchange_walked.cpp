@@ -37,10 +37,13 @@ class Walker {
     }
 
     void row(ElementId id, Shares& sums, FinishedRows& rows) const {
+        double kept = 0.0;
         follow(id.value, [&](const mesh::Ray&, std::uint32_t column, double share, double) {
             sums.add(column, share);
+            kept += share;
         });
-        const double scale = scale_of(id.value);
+        const double scale = scale_of(id.value, kept);
+        if (scale == 0.0 && capacity(id.value) > 0.0) add_itself(id.value, rows);
         sums.take([&](std::uint32_t column, double sum) {
             if (!(sum > 0.0)) return;  // nothing was left when the ray came there
             rows.columns.push_back(column);
@@ -50,11 +53,14 @@ class Walker {
     }
 
     void row(ElementId id, PlacedShares& sums, FinishedRows& rows) const {
+        double kept = 0.0;
         follow(id.value, [&](const mesh::Ray& ray, std::uint32_t column, double share, double at) {
             const Point place = ray.origin - middle_ + at * ray.direction;
             sums.add(column, share * glm::dvec4(1.0, place));
+            kept += share;
         });
-        const double scale = scale_of(id.value);
+        const double scale = scale_of(id.value, kept);
+        if (scale == 0.0 && capacity(id.value) > 0.0) add_itself(id.value, rows);
         sums.take([&](std::uint32_t column, const glm::dvec4& sum) {
             if (!(sum.x > 0.0)) return;
             rows.columns.push_back(column);
@@ -78,14 +84,30 @@ class Walker {
         });
         for (std::size_t k = 0; k < points_.size(); ++k) {
             start = start_of(i, points_(k, seed));
+            if (radius() > 0.0) start.ray.length = radius();
             const auto arrival = walk.follow(start.ray, start.at);
             if (arrival == mesh::Arrival::lost && options_.lost_rays) ++*options_.lost_rays;
         }
     }
 
-    double scale_of(std::size_t i) const {
-        return d_.elements.capacity[i * d_.elements.bands + options_.band] /
-               static_cast<double>(points_.size());
+    double radius() const { return options_.settings.interaction_radius; }
+
+    double capacity(std::size_t i) const {
+        return d_.elements.capacity[i * d_.elements.bands + options_.band];
+    }
+
+    // What a share counts [m^2]; `kept`: shares of all rays that were deposited. What gets beyond
+    // the radius counts as if it were spread like the rest.
+    double scale_of(std::size_t i, double kept) const {
+        if (radius() > 0.0) return kept > 0.0 ? capacity(i) / kept : 0.0;
+        return capacity(i) / static_cast<double>(points_.size());
+    }
+
+    // Nothing within the radius: what is beyond is taken to shine as the element itself.
+    void add_itself(std::size_t i, FinishedRows& rows) const {
+        rows.columns.push_back(static_cast<std::uint32_t>(i));
+        rows.values.push_back(capacity(i));
+        if (options_.radiance == Radiance::linear) rows.moments.push_back(Direction(0.0));
     }
 
     RayStart start_of(std::size_t i, Numbers u) const {

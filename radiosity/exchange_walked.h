@@ -16,6 +16,11 @@ namespace tyndall::radiosity {
 // Valid for: any mesh, any occlusion, homogeneous base tets. Rows close by construction, entries
 // are
 //   ≥ 0, self terms included. Reciprocity holds at the rate of the point set only.
+// Settings: `interaction_radius` R ends every ray at that distance; a row's deposits are then
+// scaled
+//   so that it closes: what is farther, outside too, is taken to shine as what is nearer does in
+//   the mean. The error of H is the share of the rays that got so far, times how far these means
+//   differ: at most e^{−κR} in a medium that fills the scene.
 // Cost: rays × tets crossed a row. Error: about 1/D^0.75 with the Sobol' set for smooth rows;
 //   settings.point_set has others (point_set.h).
 // Source: zonal method of Hottel & Sarofim (1967), Rushmeier & Torrance (1987); Sobol' points after

@@ -76,7 +76,8 @@ class RowWalk {
   public:
     RowWalk(const RowScene& scene, Deposit deposit) : s_(scene), deposit_(std::move(deposit)) {}
 
-    // Returns how the walk ended, for the count of lost rays.
+    // Returns how the walk ended, for the count of lost rays. What is left at the ray's length, if
+    // it has one, is not deposited.
     mesh::Arrival follow(const mesh::Ray& ray, mesh::WalkStart start) {
         const Point from = ray.origin - s_.centre_;
         for (int axis = 0; axis < 3; ++axis) {
@@ -93,6 +94,7 @@ class RowWalk {
                 return true;
             });
         flush();
+        if (end.arrival == mesh::Arrival::ended) return end.arrival;
         const bool struck = end.arrival == mesh::Arrival::struck;
         deposit_(
             struck ? arrival(2 * end.facet.value + (end.side == Side::back),
