@@ -35,7 +35,7 @@ class Batches {
         const std::size_t batch = std::max<std::size_t>(1, most_entries / columns_.size());
         for (begin_ = 0; begin_ < rows_.size(); begin_ = end_) {
             end_ = std::min(begin_ + batch, rows_.size());
-            if (!fill()) return;
+            fill();
             for (std::size_t r = begin_; r < end_; ++r) give(r, sink);
         }
     }
@@ -52,8 +52,8 @@ class Batches {
         return values_[(row - begin_) * columns_.size() + column];
     }
 
-    // All pairs of the batch; false: a stop is asked for.
-    bool fill() {
+    // All pairs of the batch. As in walked rows a stop that is asked for waits for the last row.
+    void fill() {
         values_.assign((end_ - begin_) * columns_.size(), 0.0);
         std::ranges::fill(row_of_, none);
         for (std::size_t r = begin_; r < end_; ++r) row_of_[rows_[r].value] = entry_of(r);
@@ -65,11 +65,9 @@ class Batches {
                 evaluate(begin_ + k / columns_.size(), k % columns_.size());
             });
             const double done = double(begin_) + double(end_ - begin_) * (part + 1) / parts;
-            if (!report(options_.progress,
-                        {"exchange areas", done / double(rows_.size()), d_.elements.size(), 0.0}))
-                return false;
+            report(options_.progress,
+                   {"exchange areas", done / double(rows_.size()), d_.elements.size(), 0.0});
         }
-        return true;
     }
 
     // The pair's value goes to both rows if both are in the batch: the lower one's turn.
