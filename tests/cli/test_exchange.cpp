@@ -22,6 +22,14 @@ surface  = [ { name = "room", material = "grey", room = { min = [0, 0, 0], max =
 medium   = [ { name = "haze", extinction = 1.0, albedo = 0.5 } ]
 )";
 
+// What a run that must succeed prints.
+std::string printed(const test::Workplace& place, const std::string& line) {
+    const auto outcome = place.run("exchange " + line);
+    INFO(line << ": " << outcome.err);
+    REQUIRE(outcome.code == 0);
+    return outcome.out;
+}
+
 // "from,to" → exchange area.
 std::map<std::string, double> areas(const std::string& csv) {
     std::istringstream lines(csv);
@@ -60,15 +68,15 @@ TEST_CASE("Some pairs only: names of sides, surfaces, parts and media") {
     const test::Workplace place("exchange");
     place.write("cube.toml", foggy_cube);
     const std::string method = " --method reference_pairs --tolerance 1e-5 ";
-    const auto one = areas(place.good("exchange cube.toml --from haze --to room.floor" + method));
+    const auto one = areas(printed(place, "cube.toml --from haze --to room.floor" + method));
     CHECK(one.size() == 1);
     CHECK(one.at("haze,room.floor+") == Approx(0.44602745645511066).epsilon(1e-5));
-    const auto walls = areas(place.good("exchange cube.toml --from room --to haze --to room.x0+"));
+    const auto walls = areas(printed(place, "cube.toml --from room --to haze --to room.x0+"));
     CHECK(walls.size() == 12);
-    place.good("exchange cube.toml --from haze --to haze -o areas.csv --quiet" + method);
+    printed(place, "cube.toml --from haze --to haze -o areas.csv --quiet" + method);
     CHECK(areas(place.read("areas.csv")).at("haze,haze") ==
           Approx(1.3238352612693434).epsilon(1e-5));
-    const auto json = nlohmann::json::parse(place.good("exchange cube.toml --rays 4096 --json"));
+    const auto json = nlohmann::json::parse(printed(place, "cube.toml --rays 4096 --json"));
     CHECK(json.at("entries").size() == 49 + 7 + 7);
     CHECK(json.at("closure_error").get<double>() < 1e-12);
     CHECK(json.at("reciprocity_error").get<double>() > 0.0);
@@ -78,9 +86,10 @@ TEST_CASE("What a method cannot do is said with the pair and the methods that ca
     const test::Workplace place("exchange");
     place.write("cube.toml", foggy_cube);
     std::string screened = squares;
-    screened +=
-        "[[surface]]\nname = \"screen\"\nmaterial = \"grey\"\nrectangle = { corner = [0.2, "
-        "0.2, 0.5], u = [0.3, 0, 0], v = [0, 0.3, 0] }\n";
+    screened.insert(
+        screened.rfind(" ]"),
+        ",\n { name = \"screen\", material = \"grey\", rectangle = { corner = [0.2, 0.2, "
+        "0.5], u = [0.3, 0, 0], v = [0, 0.3, 0] } }");
     place.write("screened.toml", screened);
     const auto refused = [&](const std::string& line, const std::vector<std::string>& words) {
         const auto outcome = place.run("exchange " + line);
@@ -108,10 +117,25 @@ TEST_CASE("What a method cannot do is said with the pair and the methods that ca
 TEST_CASE("One transmittance a pair, if asked for") {
     const test::Workplace place("exchange");
     place.write("cube.toml", foggy_cube);
-    const auto area =
-        areas(place.good("exchange cube.toml --from room.floor --to room.ceiling --method "
-                         "contour_integration --set solve.uniform_transmittance=true"));
+    const auto area = areas(printed(place,
+                                    "cube.toml --from room.floor --to room.ceiling --method "
+                                    "contour_integration --set solve.uniform_transmittance=true"));
     // The vacuum's figure times the transmittance of the metre between the middles.
     CHECK(area.at("room.floor+,room.ceiling+") ==
           Approx(0.199824895698387 * std::exp(-1.0)).epsilon(1e-12));
+}
+
+TEST_CASE("Smoothed tables close and are reciprocal; the raw errors are said beside") {
+    const test::Workplace place("exchange");
+    place.write("cube.toml", foggy_cube);
+    const std::string line =
+        "exchange cube.toml --rays 256 --set solve.smoothing=scaling --from haze --to room.floor";
+    const auto outcome = place.run(line);
+    REQUIRE(outcome.code == 0);
+    CHECK(areas(outcome.out).size() == 1);
+    CHECK_THAT(outcome.err, Contains("smoothing"));
+    const auto json = nlohmann::json::parse(place.run(line + " --json").out);
+    CHECK(json.at("closure_error").get<double>() < 1e-10);
+    CHECK(json.at("reciprocity_error").get<double>() < 1e-10);
+    CHECK(json.at("smoothing").at("raw_reciprocity_error").get<double>() > 1e-4);
 }
