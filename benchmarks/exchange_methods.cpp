@@ -99,26 +99,32 @@ std::vector<Curve> curves() {
     std::vector<Curve> all;
     const auto walked = [&](const std::string& name, PointSetKind kind) {
         Curve curve{name, "walked", {}, {}};
-        for (std::size_t rays = 256; rays <= 262144; rays *= 4) {
+        for (std::size_t rays = 16; rays <= 16384; rays *= 4) {
             curve.settings.push_back({.rays = rays, .settings = {.point_set = kind}});
-            curve.texts.push_back(fmt::format("{} rays", rays));
+            curve.texts.push_back(fmt::format("{} rays a facet", rays));
         }
         all.push_back(curve);
     };
     walked("walked", PointSetKind::sobol);
-    walked("walked, independent points", PointSetKind::independent);
-    for (const std::string method : {"hemicube", "full_cube", "single_plane"}) {
-        Curve curve{method, method, {}, {}};
-        for (std::size_t centres = 1; centres <= 256; centres *= 4) {
-            const auto resolution = std::size_t(32 * std::sqrt(double(centres)));
+    walked("walked (independent points)", PointSetKind::independent);
+    const auto cubes = [&](const std::string& name, const std::string& method,
+                           Projection projection, std::size_t most) {
+        Curve curve{name, method, {}, {}};
+        for (std::size_t centres = 1; centres <= most; centres *= 4) {
+            const auto resolution = std::size_t(16 * std::sqrt(double(centres)));
             curve.settings.push_back(
-                {.settings = {.resolution = std::min<std::size_t>(resolution, 128),
+                {.settings = {.resolution = std::min<std::size_t>(resolution, 64),
                               .centres = centres,
-                              .random_offsets = true}});
+                              .random_offsets = true,
+                              .projection = projection}});
             curve.texts.push_back(fmt::format("{} centres", centres));
         }
         all.push_back(curve);
-    }
+    };
+    for (const std::string method : {"hemicube", "full_cube", "single_plane"})
+        cubes(method, method, Projection::walked, 64);
+    // Buffers cost the more, the more tetrahedra a medium has.
+    cubes("full_cube (buffers)", "full_cube", Projection::z_buffer, 16);
     for (const std::string method :
          {"ray_traced_pairs", "reference_pairs", "contour_integration"}) {
         Curve curve{method, method, {}, {}, false};
@@ -163,7 +169,7 @@ struct Measured {
 
 // None where the method cannot do the pair.
 std::optional<Measured> measured(const Enclosure& enclosure, const Pair& pair, const Curve& curve,
-                              ExchangeOptions options, double exact) {
+                                 ExchangeOptions options, double exact) {
     std::vector<double> seconds;
     double square = 0.0;
     const int seeds = curve.random ? 4 : 1;

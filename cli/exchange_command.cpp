@@ -28,8 +28,8 @@ struct PairOptions {
     std::optional<std::size_t> rays;
 };
 
-// Whole sides and media are few: many more rays than an element of a solve has.
-constexpr std::size_t default_rays = 65536;
+// Sides and media are few: more rays than the elements of a solve have.
+constexpr std::size_t default_rays = 4096;
 
 // The participants that a name means: itself, its two sides, or all sides of its parts.
 std::vector<std::string> meant(const std::string& name, const std::vector<std::string>& known) {
@@ -163,8 +163,10 @@ void add_exchange_command(Shell& shell) {
                     "Relative, for the methods that have one; 1e-6 if not given")
         ->check(CLI::Range(1e-14, 0.5));
     command
-        .add_option("--rays", options->rays,
-                    "From each side and medium, for the methods that walk; 65536 if not given")
+        .add_option(
+            "--rays", options->rays,
+            "For the methods that walk, from each facet and tetrahedron of the base mesh in "
+            "the mean (2^20 at most from a side or medium); 4096 if not given")
         ->check(CLI::Range(std::size_t(1), std::size_t(1) << 24));
     command.add_option("-o,--output", options->out, "CSV to write; else standard output");
 }

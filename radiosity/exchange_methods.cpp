@@ -18,7 +18,12 @@ namespace tyndall::radiosity {
 namespace {
 
 constexpr NamedExchangeMethod methods[]{
-    {.name = "walked", .method = exchange_walked, .moments = true, .detail = true, .radius = true},
+    {.name = "walked",
+     .method = exchange_walked,
+     .walks = true,
+     .moments = true,
+     .detail = true,
+     .radius = true},
     {.name = "contour_integration",
      .method = exchange_contour_integration,
      .zones = false,

@@ -13,6 +13,7 @@ struct NamedExchangeMethod {
     bool zones = true;      // can: pairs with zones
     bool occlusion = true;  //   pairs with something in the way
     bool media = true;      //   patches with a medium between them
+    bool walks = false;     // makes rows of ExchangeOptions::rays rays
     bool moments = false;   //   first moments, so that elements hold linear functions
     bool detail = false;    //   deposits in coarser elements (ExchangeOptions::detail)
     bool radius = false;    //   heeds ExchangeSettings::interaction_radius

@@ -22,6 +22,7 @@ class Table {
           elements_(start_elements(enclosure, forest_, Start::single_zone)),
           method_(method),
           options_(options) {
+        if (method.walks) options_.rays = rays_from_each(options.rays);
         for (std::size_t i = 0; i <= elements_.size(); ++i)
             members_[name_of(enclosure, forest_, elements_, ElementId(i))].push_back(ElementId(i));
     }
@@ -46,6 +47,15 @@ class Table {
 
   private:
     using Pair = std::pair<std::string, std::string>;
+
+    // As many as the mean element's facets or tetrahedra would send in a solve on the base mesh.
+    std::size_t rays_from_each(std::size_t rays) const {
+        constexpr std::size_t most = 1u << 20;
+        const std::size_t members =
+            elements_.member_patches().size() + elements_.member_zones().size();
+        const std::size_t mean = members / std::max<std::size_t>(1, elements_.size());
+        return std::max(rays, std::min(most, rays * std::max<std::size_t>(1, mean)));
+    }
 
     std::vector<std::string> names() const {
         std::vector<std::string> result;

@@ -30,6 +30,8 @@ std::vector<std::string> exchange_names(const Enclosure& enclosure);
 //   outside is that to outside, by reciprocity; outside to outside is left out. With
 //   settings.smoothing all rows are made and smoothed (smoothing.h), whatever is asked for, and
 //   both errors are known.
+// Rays of the methods that walk: `options.rays` times the facets or tetrahedra of the mean side or
+//   medium, up to 2^20, unless they are more to begin with: what a solve on the base mesh has.
 // Errors: what the method throws for a pair that it cannot do; settings that it does not know.
 // Cost: the method's, of the rows of `from` alone, and the columns of `to` where it can leave out
 //   others; of all pairs with smoothing.

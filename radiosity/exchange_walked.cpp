@@ -1,5 +1,6 @@
 #include "radiosity/exchange_walked.h"
 
+#include <algorithm>
 #include <glm/vec4.hpp>
 #include <numbers>
 
@@ -155,7 +156,9 @@ void make_rows(const Discretization& discretization, std::span<const ElementId> 
     const std::size_t columns =
         options.levels ? options.levels->columns() : discretization.elements.size() + 1;
     // Neighbours walk through the same part of the trees: a task makes a run of rows.
-    make_row_batches(discretization, rows, options, sink, 32, Accumulator(columns),
+    // Neighbours in a task share the cache; few rows are shared out singly.
+    const std::size_t run = std::clamp<std::size_t>(rows.size() / 64, 1, 32);
+    make_row_batches(discretization, rows, options, sink, run, Accumulator(columns),
                      [&](ElementId id, Accumulator& sums, FinishedRows& finished) {
                          walker.row(id, sums, finished);
                      });
