@@ -112,18 +112,27 @@ class ZoneBoundary {
     std::map<Corners, Face> faces_;
 };
 
+std::vector<Group> groups_of(const std::map<std::uint32_t, Group>& by_medium) {
+    std::vector<Group> groups;
+    for (const auto& [medium, group] : by_medium) groups.push_back(group);
+    return groups;
+}
+
+// By medium, so that a face has one in front.
 std::vector<Group> patch_groups(const Discretization& d, std::span<const std::uint32_t> members) {
-    Group group;
+    std::map<std::uint32_t, Group> groups;
     for (const std::uint32_t member : members) {
         const PatchId patch(member);
         const std::uint32_t side = d.forest.base_facet_side(patch);
-        group.front = d.enclosure.mesh.facets[side / 2].tets[side % 2];
+        const TetId front = d.enclosure.mesh.facets[side / 2].tets[side % 2];
+        Group& group = groups[d.enclosure.medium_of(front)];
+        group.front = front;
         group.triangles.push_back(d.forest[patch].corners);
     }
-    return {group};
+    return groups_of(groups);
 }
 
-// By medium, so that a face has one beside it.
+// As well by medium.
 std::vector<Group> hull_groups(const Enclosure& enclosure) {
     const auto& mesh = enclosure.mesh;
     std::map<std::uint32_t, Group> groups;
@@ -141,9 +150,7 @@ std::vector<Group> hull_groups(const Enclosure& enclosure) {
             group.triangles.push_back({mesh.tets[t][a], mesh.tets[t][c], mesh.tets[t][b]});
         }
     }
-    std::vector<Group> result;
-    for (auto& [medium, group] : groups) result.push_back(std::move(group));
-    return result;
+    return groups_of(groups);
 }
 
 }  // namespace

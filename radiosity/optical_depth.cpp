@@ -77,7 +77,8 @@ void OpticalDepth::operator()(Point x, TetId tet, Direction path, std::span<doub
         // On the plane itself the tet tells which side x is on.
         const bool from_front = std::abs(start) > tolerance_ ? start > 0.0 : here == face.front;
         const bool to_front = end > 0.0;
-        if (from_front == to_front || !passes(x, path, face.polygon)) continue;
+        // A path along the plane crosses it nowhere.
+        if (from_front == to_front || start == end || !passes(x, path, face.polygon)) continue;
         const double beyond = s * (1.0 - std::clamp(start / (start - end), 0.0, 1.0));
         const auto before = from_front ? face.front : face.back;
         const auto after = from_front ? face.back : face.front;

@@ -106,6 +106,12 @@ Integral integrate_polygon(std::span<const Point> c, F&& f, const CubatureOption
     return total;
 }
 
+double area_of(std::span<const Point> c) {
+    Direction twice(0.0);
+    for (std::size_t k = 2; k < c.size(); ++k) twice += glm::cross(c[k - 1] - c[0], c[k] - c[0]);
+    return 0.5 * glm::length(twice);
+}
+
 std::vector<Point> relative(std::span<const Point> polygon, Point x) {
     std::vector<Point> result(polygon.begin(), polygon.end());
     for (Point& p : result) p -= x;
@@ -114,7 +120,7 @@ std::vector<Point> relative(std::span<const Point> polygon, Point x) {
 
 // The same from one point where the optical depth is whatever `depth` says.
 double through_media(std::span<const Point> q, Point x, const PolygonPair& pair, const Obstacles& o,
-                     DepthKernel kernel, double tolerance) {
+                     DepthKernel kernel, const CubatureOptions& options) {
     std::vector<double> depths(o.enclosure.bands);
     // Beside p, on q's side.
     const TetId tet = mesh::locate(o.enclosure.mesh, x + 1e-9 * (q[0] + q[1] + q[2]));
@@ -125,7 +131,7 @@ double through_media(std::span<const Point> q, Point x, const PolygonPair& pair,
                std::abs(glm::dot(pair.p_normal, path) * glm::dot(pair.q_normal, path)) /
                (square * square) * (s > 0.0);
     };
-    return integrate_polygon(q, value, {tolerance, 0.0, 200'000}).value;
+    return integrate_polygon(q, value, options).value;
 }
 
 }  // namespace
@@ -192,6 +198,9 @@ Integral exchange_in_sight(const PolygonPair& pair, double extinction, DepthKern
 Integral exchange_past(const PolygonPair& pair, const Obstacles& o, DepthKernel kernel,
                        const CubatureOptions& options) {
     mesh::VisibleScratch scratch;
+    // A tenth of what is left to both integrals.
+    const CubatureOptions inner{0.1 * options.relative,
+                                0.1 * options.absolute * pi / area_of(pair.p), 200'000};
     return integrate_polygon(
         pair.p,
         [&](Point x) {
@@ -205,8 +214,7 @@ Integral exchange_past(const PolygonPair& pair, const Obstacles& o, DepthKernel 
             for (std::size_t k = 0; k < scratch.visible.size(); ++k)
                 sum += o.extinction ? exchange_from_point(scratch.visible[k], pair.q_normal,
                                                           pair.p_normal, *o.extinction, kernel)
-                                    : through_media(scratch.visible[k], x, pair, o, kernel,
-                                                    0.1 * options.relative);
+                                    : through_media(scratch.visible[k], x, pair, o, kernel, inner);
             return sum / pi;
         },
         options);
