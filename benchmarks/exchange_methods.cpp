@@ -121,7 +121,7 @@ std::vector<Curve> curves() {
         }
         all.push_back(curve);
     };
-    for (const std::string method : {"hemicube", "full_cube", "single_plane"})
+    for (const std::string method : {"point_to_polygon", "hemicube", "full_cube", "single_plane"})
         cubes(method, method, Projection::walked, 64);
     // Buffers cost the more, the more tetrahedra a medium has.
     cubes("full_cube (buffers)", "full_cube", Projection::z_buffer, 16);

@@ -123,7 +123,11 @@ int exchange(const PairOptions& given, const CommonFlags& flags) {
     const auto enclosure = mesh_scene(file, progress);
     const auto known = radiosity::exchange_names(*enclosure);
     auto options = options_of(given, file, flags);
-    options.progress = progress.callback();
+    // Half a table is none: a stop ends the command.
+    options.progress = [shown = progress.callback()](const radiosity::Progress& at) {
+        if (!shown(at)) throw mesh::InputError("stopped on request: nothing was written.");
+        return true;
+    };
     const auto table = radiosity::exchange_table(
         *enclosure, method, options, chosen(given.from, known), chosen(given.to, known));
     progress.clear();

@@ -9,6 +9,7 @@
 #include "radiosity/exchange_contour_integration.h"
 #include "radiosity/exchange_full_cube.h"
 #include "radiosity/exchange_hemicube.h"
+#include "radiosity/exchange_point_to_polygon.h"
 #include "radiosity/exchange_ray_traced_pairs.h"
 #include "radiosity/exchange_reference_pairs.h"
 #include "radiosity/exchange_single_plane.h"
@@ -29,6 +30,7 @@ constexpr NamedExchangeMethod methods[]{
      .zones = false,
      .occlusion = false,
      .media = false},
+    {.name = "point_to_polygon", .method = exchange_point_to_polygon, .zones = false},
     {.name = "reference_pairs", .method = exchange_reference_pairs},
     {.name = "ray_traced_pairs", .method = exchange_ray_traced_pairs, .radius = true},
     {.name = "full_cube", .method = exchange_full_cube},

@@ -1,6 +1,7 @@
 // tyndall exchange as a user runs it.
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <thread>
 
 #include "support/catch.h"
 #include "support/program.h"
@@ -138,4 +139,16 @@ TEST_CASE("Smoothed tables close and are reciprocal; the raw errors are said bes
     CHECK(json.at("closure_error").get<double>() < 1e-10);
     CHECK(json.at("reciprocity_error").get<double>() < 1e-10);
     CHECK(json.at("smoothing").at("raw_reciprocity_error").get<double>() > 1e-4);
+}
+
+TEST_CASE("Ctrl-C ends an exchange with one message and no file") {
+    const test::Workplace place("exchange");
+    place.write("cube.toml", foggy_cube);
+    // A tolerance that takes minutes.
+    test::Running run(place.path, {"exchange", "cube.toml", "--method", "reference_pairs",
+                                   "--tolerance", "1e-13", "-o", "areas.csv"});
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    run.signal(SIGINT);
+    CHECK(test::exit_code(run.wait()) == 1);
+    CHECK(!place.has("areas.csv"));
 }
