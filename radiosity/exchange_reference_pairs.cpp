@@ -37,8 +37,8 @@ class ReferencePairs {
         // Signs cancel, so that the first look may not even know the sum: closer, until it does.
         double result = sum, error = 0.0;
         for (int look = 0; look < most_looks; ++look) {
-            const double goal = options_.settings.tolerance * std::abs(result) /
-                                std::sqrt(static_cast<double>(parts.size()));
+            const double goal =
+                options_.settings.tolerance * std::abs(result) / static_cast<double>(parts.size());
             if (goal == 0.0) return 0.0;
             result = error = 0.0;
             for (Part& part : parts) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
+#include <limits>
 #include <numbers>
 
 #include "radiosity/closed_forms.h"
@@ -24,13 +25,13 @@ constexpr std::array<double, 10> weights{
     0.1477621123573764,  0.1477621123573764,  0.1346333596549982, 0.1095431812579910,
     0.07472567457529030, 0.03333567215434407};
 
-// ∫ f over [from, to] by ten points on pieces no longer than this: the integrands here have their
-// poles π/2 beside the real axis, which leaves 1e-11.
-constexpr double longest_piece = 2.0;
-
+// ∫ f over [from, to] by ten points a piece. The integrands here have their poles π/2 beside the
+// real axis: pieces of 2 leave 1e-11. In thick media they fall like e^{−u cosh z}, as a Gauss curve
+// of width 1/√u, of which a piece holds four widths at most.
 template <class F>
-double integrate(double from, double to, F&& f) {
-    const int pieces = std::max(1, static_cast<int>(std::ceil((to - from) / longest_piece)));
+double integrate(double from, double to, double depth, F&& f) {
+    const double longest = 2.0 / std::max(1.0, 0.5 * std::sqrt(depth));
+    const int pieces = std::max(1, static_cast<int>(std::ceil((to - from) / longest)));
     const double piece = (to - from) / pieces;
     double sum = 0.0;
     for (int k = 0; k < pieces; ++k)
@@ -47,18 +48,42 @@ struct Foot {
     double upright;    // n_p · n
     glm::dvec2 along;  // n_p in the plane
     bool cosine;       // whether there is a cosine at the point
+    // From where on sectors count [m]: what lies nearer cancels over the edges of a polygon beside
+    // the foot. Not where it is lower than wide, for there it would make the edges' integrals
+    // rough.
+    double nearest;
 };
 
-// ∫_0^r K (n_p·d/s) h/s³ r' dr' in the direction of e: r' = h sinh z, s = h cosh z.
+// ∫ K (n_p·d/s) h/s³ r' dr' from the nearest to r in the direction of e: r' = h sinh z, s = h cosh
+// z.
 double radial(const Foot& foot, double r, glm::dvec2 e) {
     const double slope = glm::dot(foot.along, e);
-    return integrate(0.0, std::asinh(r / foot.height), [&](double z) {
-        const double grown = std::exp(z), shrunk = 1.0 / grown;
-        const double cosh = 0.5 * (grown + shrunk), sinh = 0.5 * (grown - shrunk);
-        const double cosine = foot.cosine ? (slope * sinh + foot.upright) / cosh : 1.0;
-        return kernel_value(foot.kernel, foot.extinction * foot.height * cosh) * cosine * sinh /
-               (cosh * cosh);
-    });
+    return integrate(std::asinh(foot.nearest / foot.height), std::asinh(r / foot.height),
+                     foot.extinction * foot.height, [&](double z) {
+                         const double grown = std::exp(z), shrunk = 1.0 / grown;
+                         const double cosh = 0.5 * (grown + shrunk), sinh = 0.5 * (grown - shrunk);
+                         const double cosine =
+                             foot.cosine ? (slope * sinh + foot.upright) / cosh : 1.0;
+                         return kernel_value(foot.kernel, foot.extinction * foot.height * cosh) *
+                                cosine * sinh / (cosh * cosh);
+                     });
+}
+
+// Of a convex polygon; 0 inside.
+double distance_from_origin(const std::vector<glm::dvec2>& corners) {
+    double least = std::numeric_limits<double>::max();
+    bool left = false, right = false;
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+        const glm::dvec2 a = corners[k], b = corners[k + 1 == corners.size() ? 0 : k + 1];
+        const glm::dvec2 edge = b - a;
+        const double turn = a.x * b.y - a.y * b.x, square = glm::dot(edge, edge);
+        left = left || turn > 0.0;
+        right = right || turn < 0.0;
+        if (square == 0.0) continue;
+        const double t = std::clamp(-glm::dot(a, edge) / square, 0.0, 1.0);
+        least = std::min(least, glm::length(a + t * edge));
+    }
+    return left && right ? least : 0.0;
 }
 
 // The part between the foot and the edge from a to b, signed as they turn: dφ = d dl / r², with
@@ -72,12 +97,14 @@ double sector(const Foot& foot, glm::dvec2 a, glm::dvec2 b) {
     const double d = glm::dot(n, a);
     if (d == 0.0) return 0.0;
     const double rho = std::hypot(d, foot.height);
-    return integrate(std::asinh(glm::dot(t, a) / rho), std::asinh(glm::dot(t, b) / rho),
-                     [&](double v) {
-                         const double l = rho * std::sinh(v), r = std::hypot(d, l);
-                         const glm::dvec2 e = (d * n + l * t) / r;
-                         return d * rho * std::cosh(v) / (r * r) * radial(foot, r, e);
-                     });
+    return integrate(
+        std::asinh(glm::dot(t, a) / rho), std::asinh(glm::dot(t, b) / rho),
+        foot.nearest > 0.0 ? std::max(16.0, foot.extinction * rho) : foot.extinction * rho,
+        [&](double v) {
+            const double l = rho * std::sinh(v), r = std::hypot(d, l);
+            const glm::dvec2 e = (d * n + l * t) / r;
+            return d * rho * std::cosh(v) / (r * r) * radial(foot, r, e);
+        });
 }
 
 // Calls add(point, weight) ... an integral over a convex polygon as one over squares: a
@@ -167,18 +194,19 @@ double exchange_from_point(std::span<const Point> q, Direction q_normal, Directi
     if (height == 0.0) return 0.0;
     const Direction axis = std::abs(n.x) < 0.6 ? Direction(1, 0, 0) : Direction(0, 1, 0);
     const Direction e1 = glm::normalize(glm::cross(axis, n)), e2 = glm::cross(n, e1);
+    std::vector<glm::dvec2> corners;
+    for (const Point& p : q) corners.push_back({glm::dot(p, e1), glm::dot(p, e2)});
+    const double beside = distance_from_origin(corners);
     const Foot foot{height,
                     extinction,
                     kernel,
                     glm::dot(p_normal, n),
                     {glm::dot(p_normal, e1), glm::dot(p_normal, e2)},
-                    cosine};
+                    cosine,
+                    beside > height ? beside : 0.0};
     double sum = 0.0;
-    for (std::size_t k = 0; k < q.size(); ++k) {
-        const Point& a = q[k];
-        const Point& b = q[k + 1 == q.size() ? 0 : k + 1];
-        sum += sector(foot, {glm::dot(a, e1), glm::dot(a, e2)}, {glm::dot(b, e1), glm::dot(b, e2)});
-    }
+    for (std::size_t k = 0; k < corners.size(); ++k)
+        sum += sector(foot, corners[k], corners[k + 1 == corners.size() ? 0 : k + 1]);
     // Corners may run either way round; the kernels keep their sign.
     return kernel == DepthKernel::first ? -std::abs(sum) : std::abs(sum);
 }
