@@ -1,14 +1,14 @@
 // Accuracy against cost of every exchange method, by kind of pair and extinction: the figures of
 // docs/studies/exchange.md.
 //
-//   exchange_methods [FOLDER]
+//   exchange_methods [FOLDER [METHOD]]
 //
 // Pairs: two unit squares that touch, are near, far, and have a screen between them; a unit cube
 // and its own face; a cube and itself, one that touches it and one that is far. Each in a medium of
 // extinction 0, 0.1, 1 and 5 /m. Each method with its settings from coarse to fine, four seeds for
 // those that draw numbers: root mean square of the relative errors against reference_pairs at 1e-8
 // and median of the CPU seconds. Writes FOLDER/exchange.csv and a plot for each pair and
-// extinction.
+// extinction; with a METHOD only FOLDER/METHOD.csv, of that one.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -197,6 +197,7 @@ std::string slug(std::string text) {
 
 int main(int count, char** words) {
     const std::filesystem::path folder = count > 1 ? words[1] : "exchange";
+    const std::string only = count > 2 ? words[2] : "";
     std::filesystem::create_directories(folder);
     std::string csv = "pair,extinction,method,setting,cpu_seconds,relative_error\n";
     for (const Pair& pair : pairs())
@@ -211,6 +212,7 @@ int main(int count, char** words) {
                            {},
                            {}};
             for (const Curve& curve : curves()) {
+                if (!only.empty() && curve.method != only) continue;
                 cli::Curve drawn{curve.name, {}};
                 for (std::size_t k = 0; k < curve.settings.size(); ++k) {
                     const auto point = measured(enclosure, pair, curve, curve.settings[k], exact);
@@ -223,9 +225,10 @@ int main(int count, char** words) {
                 }
                 if (!drawn.points.empty()) plot.curves.push_back(drawn);
             }
-            mesh::write_file(folder / fmt::format("{}_{:g}.svg", slug(pair.name), extinction),
-                             cli::svg_of(plot));
-            mesh::write_file(folder / "exchange.csv", csv);
+            if (only.empty())
+                mesh::write_file(folder / fmt::format("{}_{:g}.svg", slug(pair.name), extinction),
+                                 cli::svg_of(plot));
+            mesh::write_file(folder / ((only.empty() ? "exchange" : only) + ".csv"), csv);
             fmt::print("{}, extinction {}: {:.10g} m2\n", pair.name, extinction, exact);
             std::fflush(stdout);
         }
