@@ -8,13 +8,13 @@
 
 #include "radiosity/exchange_methods.h"
 #include "radiosity/indicators.h"
+#include "radiosity/smoothing.h"
 
 namespace tyndall::cli {
 namespace {
 
 constexpr std::array<std::string_view, 3> point_set_names{"sobol", "independent", "stratified"};
 constexpr std::array<std::string_view, 2> projection_names{"z_buffer", "walked"};
-constexpr std::array<std::string_view, 3> smoothing_names{"none", "least_squares", "scaling"};
 constexpr std::array<std::string_view, 1> solver_names{"gmres"};
 constexpr std::array<std::string_view, 5> refinement_names{"none", "uniform", "adaptive", "view",
                                                            "aligned"};
@@ -116,7 +116,7 @@ constexpr Setting solve_settings[] = {
     {{"interaction_radius", "number [m]", "0", "pairs farther apart are left out and what they exchange is put back nearer by; 0: all pairs count"},
      [](T t, K k, Settings& s) { s.solve.exchange_settings.interaction_radius = t.number(k, {0.0, 1e9}); }},
     {{"smoothing", "\"none\", \"least_squares\" or \"scaling\"", "\"none\"", "how rows are changed so that reciprocity and closure both hold"},
-     [](T t, K k, Settings& s) { s.solve.exchange_settings.smoothing = static_cast<radiosity::Smoothing>(t.choice(k, smoothing_names)); }},
+     [](T t, K k, Settings& s) { s.solve.exchange_settings.smoothing = static_cast<radiosity::Smoothing>(t.choice(k, radiosity::smoothing_names())); }},
     {{"solver", "name of a method", "\"gmres\"", "how the linear system is solved"},
      [](T t, K k, Settings& s) { s.solve.solver = solver_names[t.choice(k, solver_names)]; }},
     {{"solver_tolerance", "number above 0 and below 1", "1e-6", "relative residual"},

@@ -7,11 +7,6 @@
 namespace tyndall::radiosity {
 namespace {
 
-bool same_extinction(const Enclosure& enclosure, std::size_t a, std::size_t b) {
-    return std::all_of(enclosure.media.begin(), enclosure.media.end(),
-                       [&](const MediumOptics& m) { return m.extinction[a] == m.extinction[b]; });
-}
-
 // The function with that gradient and mean whose gradient is shortened until no corner is below 0.
 template <class Corners>
 Affine affine_not_below_0(const Forest& forest, const Corners& corners, double mean,
@@ -38,8 +33,7 @@ CoarseSolution::CoarseSolution(const Enclosure& enclosure, const Forest& forest,
     const NamedExchangeMethod& method = exchange_method(options.exchange);
     require_settings(method, options.exchange_settings);
     for (std::size_t band = 0; band < enclosure.bands; ++band) {
-        std::size_t same = 0;
-        while (same < band && !same_extinction(enclosure, same, band)) ++same;
+        const std::size_t same = first_of_extinction(enclosure, band);
         if (same < band) {
             matrix_.push_back(matrix_[same]);
             continue;

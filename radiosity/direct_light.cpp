@@ -9,6 +9,7 @@
 
 #include "mesh/visible_polygon.h"
 #include "radiosity/closed_forms.h"
+#include "radiosity/element_faces.h"
 #include "radiosity/light_sources.h"
 #include "radiosity/mean_transmittance.h"
 #include "radiosity/occlusion.h"
@@ -19,7 +20,7 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 // Of the mesh's diagonal: above what rounding does to points computed on a plane.
-constexpr double plane_tolerance = 1e-10;
+constexpr double on_plane = 1e-10;
 constexpr double merge_tolerance = 1e-11;
 // Occluders × points beyond which none is tested for being an outer wall.
 constexpr double most_wall_tests = 2e8;
@@ -42,18 +43,6 @@ double diagonal(const mesh::BaseMesh& mesh) {
     return glm::distance(mesh.hull_min, mesh.hull_max);
 }
 
-std::vector<mesh::ConvexPolygon> opaque_polygons(const Enclosure& enclosure) {
-    std::vector<std::array<mesh::VertexId, 3>> triangles;
-    for (const auto& facet : enclosure.mesh.facets) {
-        const auto active = [&](TetId tet) { return tet.valid() && !enclosure.solid(tet); };
-        if (facet.opacity == mesh::Opacity::opaque &&
-            (active(facet.tets[0]) || active(facet.tets[1])))
-            triangles.push_back(facet.corners);
-    }
-    return mesh::convex_merge(enclosure.mesh.points, triangles, mesh::Facing::ignored,
-                              merge_tolerance * diagonal(enclosure.mesh));
-}
-
 // Drops walls with all that light can reach on one side of them: they come between no two points.
 std::vector<mesh::ConvexPolygon> inner_polygons(const Enclosure& enclosure,
                                                 const std::vector<mesh::ConvexPolygon>& all) {
@@ -66,7 +55,7 @@ std::vector<mesh::ConvexPolygon> inner_polygons(const Enclosure& enclosure,
         if (reached[k]) points.push_back(enclosure.mesh.points[k]);
     if (static_cast<double>(points.size()) * static_cast<double>(all.size()) > most_wall_tests)
         return all;
-    const double tolerance = plane_tolerance * diagonal(enclosure.mesh);
+    const double tolerance = on_plane * diagonal(enclosure.mesh);
     std::vector<mesh::ConvexPolygon> inner;
     for (const auto& polygon : all) {
         bool front = false, back = false;
@@ -142,11 +131,12 @@ struct DirectLight::Data {
           options(options),
           depth(enclosure, merge_tolerance * diagonal(enclosure.mesh)),
           hull{enclosure.mesh.hull_min, enclosure.mesh.hull_max},
-          tolerance(plane_tolerance * diagonal(enclosure.mesh)) {
+          tolerance(on_plane * diagonal(enclosure.mesh)) {
         if (options.emitters) add_emitters();
         for (const Light& light : enclosure.lights) add_light(light);
         if (areas.empty() && beams.empty() && points.empty() && spots.empty()) return;
-        const auto polygons = opaque_polygons(enclosure);
+        const auto polygons =
+            occluding_polygons(enclosure, merge_tolerance * diagonal(enclosure.mesh));
         all = mesh::Occluders(polygons, tolerance);
         inner = mesh::Occluders(inner_polygons(enclosure, polygons), tolerance);
         if (!areas.empty()) occlusion.emplace(enclosure.mesh);

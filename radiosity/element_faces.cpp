@@ -171,12 +171,14 @@ std::vector<ElementFace> faces_of(const Discretization& d, ElementId element) {
     return merged(d.forest, boundary.groups(), tolerance);
 }
 
-std::vector<mesh::ConvexPolygon> occluding_polygons(const Enclosure& enclosure) {
+std::vector<mesh::ConvexPolygon> occluding_polygons(const Enclosure& enclosure, double tolerance) {
+    const auto active = [&](TetId tet) { return tet.valid() && !enclosure.solid(tet); };
     std::vector<Corners> triangles;
     for (const auto& facet : enclosure.mesh.facets)
-        if (facet.opacity == mesh::Opacity::opaque) triangles.push_back(facet.corners);
-    return mesh::convex_merge(enclosure.mesh.points, triangles, mesh::Facing::ignored,
-                              plane_tolerance(enclosure));
+        if (facet.opacity == mesh::Opacity::opaque &&
+            (active(facet.tets[0]) || active(facet.tets[1])))
+            triangles.push_back(facet.corners);
+    return mesh::convex_merge(enclosure.mesh.points, triangles, mesh::Facing::ignored, tolerance);
 }
 
 std::vector<mesh::ConvexPolygon> media_interfaces(const Enclosure& enclosure) {

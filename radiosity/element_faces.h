@@ -18,8 +18,9 @@ struct ElementFace {
 // Cost: O(members log members).
 std::vector<ElementFace> faces_of(const Discretization& d, ElementId element);
 
-// Opaque facets, merged whichever way they look.
-std::vector<mesh::ConvexPolygon> occluding_polygons(const Enclosure& enclosure);
+// Opaque facets that light can reach from either side, merged whichever way they look; `tolerance`
+// as convex_merge has it [m].
+std::vector<mesh::ConvexPolygon> occluding_polygons(const Enclosure& enclosure, double tolerance);
 // Facets that light passes between media that differ in any band.
 std::vector<mesh::ConvexPolygon> media_interfaces(const Enclosure& enclosure);
 

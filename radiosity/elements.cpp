@@ -25,6 +25,15 @@ std::string name_of(const Enclosure& enclosure, const Forest& forest, const Elem
     return enclosure.media[medium_of(enclosure, forest, elements.zone(element.value))].name;
 }
 
+std::size_t first_of_extinction(const Enclosure& enclosure, std::size_t band) {
+    std::size_t first = 0;
+    while (!std::ranges::all_of(enclosure.media, [&](const MediumOptics& m) {
+        return m.extinction[first] == m.extinction[band];
+    }))
+        ++first;
+    return first;
+}
+
 Direction normal_of(const Forest& forest, PatchId patch) {
     const auto& c = forest[patch].corners;
     const Point a = forest.point(c[0]);

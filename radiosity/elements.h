@@ -82,6 +82,9 @@ std::uint32_t medium_of(const Enclosure& enclosure, const Forest& forest, ZoneId
 // What messages call an element: the side or medium it belongs to; "outside" for that.
 std::string name_of(const Enclosure& enclosure, const Forest& forest, const Elements& elements,
                     ElementId element);
+// The first band in which every medium has the extinction that it has in this one: exchange areas
+// are the same in both.
+std::size_t first_of_extinction(const Enclosure& enclosure, std::size_t band);
 // Unit normal of a patch, away from the surface.
 Direction normal_of(const Forest& forest, PatchId patch);
 

@@ -69,12 +69,16 @@ class Table {
         std::erase(rows, ElementId(elements_.outside()));
         const auto columns = elements_of(to);
         for (std::size_t band = 0; band < enclosure_.bands; ++band) {
+            if (first_of_extinction(enclosure_, band) < band) continue;
             add_rows(rows, columns, band, false);
             // Outside has no row: what the others send there comes back.
             auto others = columns;
             std::erase(others, ElementId(elements_.outside()));
             if (from_outside) add_rows(others, {ElementId(elements_.outside())}, band, true);
         }
+        for (auto& [pair, areas] : sums_)
+            for (std::size_t band = 0; band < enclosure_.bands; ++band)
+                areas[band] = areas[first_of_extinction(enclosure_, band)];
     }
 
     // Smoothing needs every row whole. Leaves the smoothed sums.
@@ -83,6 +87,10 @@ class Table {
         for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = ElementId(i);
         std::vector<ExchangeAreas> bands(enclosure_.bands);
         for (std::size_t band = 0; band < bands.size(); ++band) {
+            if (const auto first = first_of_extinction(enclosure_, band); first < band) {
+                bands[band] = bands[first];
+                continue;
+            }
             options_.band = band;
             method_.method({enclosure_, forest_, elements_}, rows, options_,
                            [&](const Row& row) { append(bands[band], row, Precision::doubled); });

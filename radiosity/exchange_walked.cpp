@@ -155,8 +155,8 @@ void make_rows(const Discretization& discretization, std::span<const ElementId> 
     const Walker walker(discretization, options, points);
     const std::size_t columns =
         options.levels ? options.levels->columns() : discretization.elements.size() + 1;
-    // Neighbours walk through the same part of the trees: a task makes a run of rows.
-    // Neighbours in a task share the cache; few rows are shared out singly.
+    // Neighbours walk through the same part of the trees: a task makes a run of rows, where there
+    // are enough of them.
     const std::size_t run = std::clamp<std::size_t>(rows.size() / 64, 1, 32);
     make_row_batches(discretization, rows, options, sink, run, Accumulator(columns),
                      [&](ElementId id, Accumulator& sums, FinishedRows& finished) {

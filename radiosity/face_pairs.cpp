@@ -70,7 +70,7 @@ void each_facing(const Shape& a, const Shape& b,
 FacePairs::FacePairs(const Discretization& d)
     : enclosure_(d.enclosure),
       tolerance_(plane_tolerance(d.enclosure)),
-      walls_(occluding_polygons(d.enclosure)),
+      walls_(occluding_polygons(d.enclosure, tolerance_)),
       interfaces_(media_interfaces(d.enclosure)),
       occluders_(walls_, tolerance_),
       depth_(d.enclosure, tolerance_) {

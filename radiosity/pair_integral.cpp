@@ -7,6 +7,7 @@
 
 #include "mesh/visible_polygon.h"
 #include "radiosity/closed_forms.h"
+#include "radiosity/polygon_exchange.h"
 #include "radiosity/spherical_cubature.h"
 
 namespace tyndall::radiosity {
@@ -25,14 +26,6 @@ constexpr std::size_t most_pairs = 1u << 16;
 
 std::span<const CubatureNode> rule_of(const Piece& piece, Degree degree) {
     return piece.solid ? tet_rule(degree) : triangle_rule(degree);
-}
-
-// u − 1 + e^{−u}: what a line of optical depth u in a medium emits and takes in again.
-double taken_in(double u) {
-    if (u > 0.05) return u + std::expm1(-u);
-    // The series' next term is below 1e-12 of the first.
-    return u * u / 2 *
-           (1.0 - u / 3 * (1.0 - u / 4 * (1.0 - u / 5 * (1.0 - u / 6 * (1.0 - u / 7)))));
 }
 
 // The cosine that a ray has at a piece; 1 at a zone.
@@ -244,12 +237,13 @@ PairIntegral::Estimate PairIntegral::by_points(const Pair& pair, Degree degree) 
             const double share = whole * p.weight * q.weight * at_x * at_y / (s * s);
             ++result.rays;
             if (pair.kernel == Kernel::faces) {
-                result.value += share * taken_in(a.extinction * s);
+                result.value += share * kernel_value(DepthKernel::second, a.extinction * s);
                 continue;
             }
             if (pair.kernel == Kernel::patch_face) {
-                result.value +=
-                    std::max(at_x, 0.0) == 0.0 ? 0.0 : share * std::expm1(-a.extinction * s);
+                result.value += std::max(at_x, 0.0) == 0.0
+                                    ? 0.0
+                                    : share * kernel_value(DepthKernel::first, a.extinction * s);
                 continue;
             }
             if (at_x <= 0.0 || at_y <= 0.0) continue;

@@ -354,6 +354,10 @@ void check_smoothing(Smoothing method, double row_detail) {
             smoothing_name(method)));
 }
 
+std::span<const std::string_view> smoothing_names() {
+    return names;
+}
+
 std::string_view smoothing_name(Smoothing method) {
     return names[static_cast<std::size_t>(method)];
 }

@@ -1,6 +1,7 @@
 // Smoothing of exchange areas: rows of any method made to be reciprocal and to close, both at once.
 #pragma once
 
+#include <span>
 #include <string_view>
 
 #include "radiosity/exchange.h"
@@ -48,6 +49,7 @@ SmoothingReport worse_of(const SmoothingReport& a, const SmoothingReport& b);
 void check_smoothing(Smoothing method, double row_detail);
 
 // "least_squares", "scaling", "none". Errors: mesh::InputError if there is none of that name.
+std::span<const std::string_view> smoothing_names();  // in the order of Smoothing
 std::string_view smoothing_name(Smoothing method);
 Smoothing smoothing_named(std::string_view name);
 
