@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <map>
@@ -95,14 +94,14 @@ int check(const std::string& scene, const CommonFlags& flags) {
 
 void add_check_command(Shell& shell) {
     const auto scene = std::make_shared<std::string>();
-    auto& command =
+    auto command =
         shell.add_command("check", "Validate and mesh a scene; nothing is written",
                           R"(  tyndall check room.toml
   tyndall check room.toml --set solve.max_elements=2000000 --json)",
                           [scene](const CommonFlags& flags) { return check(*scene, flags); });
     add_seed_flag(command, shell.flags());
     add_set_flag(command, shell.flags());
-    command.add_option("SCENE", *scene, "Scene file")->required();
+    command.option("SCENE", *scene, "Scene file").required();
 }
 
 }  // namespace tyndall::cli

@@ -25,8 +25,8 @@ class Shell {
     // Adds a subcommand with --threads, --quiet and --json. The caller adds its other options to
     // what is returned, with variables that the action keeps alive (a shared_ptr). `examples`:
     // whole lines for the end of its help.
-    CLI::App& add_command(const std::string& name, const std::string& purpose,
-                          const std::string& examples, Action action);
+    Command add_command(const std::string& name, const std::string& purpose,
+                        const std::string& examples, Action action);
 
     CommonFlags& flags() { return flags_; }
 

@@ -27,30 +27,34 @@ CLI::Validator whole_number() {
 
 }  // namespace
 
-void add_common_flags(CLI::App& command, CommonFlags& flags) {
-    command.add_option("--threads", flags.threads, "Threads to use; 0: all")
+void add_common_flags(Command command, CommonFlags& flags) {
+    command.app()
+        .add_option("--threads", flags.threads, "Threads to use; 0: all")
         ->type_name("N")
         ->check(whole_number())
         ->group("Common flags");
-    command.add_flag("-q,--quiet", flags.quiet, "No progress, no summary")->group("Common flags");
-    command.add_flag("--json", flags.json, "Machine-readable results to standard output")
+    command.app()
+        .add_flag("-q,--quiet", flags.quiet, "No progress, no summary")
+        ->group("Common flags");
+    command.app()
+        .add_flag("--json", flags.json, "Machine-readable results to standard output")
         ->group("Common flags");
 }
 
-void add_seed_flag(CLI::App& command, CommonFlags& flags) {
-    command
+void add_seed_flag(Command command, CommonFlags& flags) {
+    command.app()
         .add_option("--seed", flags.seed, "Seed of the sampling; the same seed, the same result")
         ->type_name("S")
         ->check(whole_number())
         ->group("Common flags");
 }
 
-void add_set_flag(CLI::App& command, CommonFlags& flags) {
+void add_set_flag(Command command, CommonFlags& flags) {
     const auto keep = [&flags](const std::vector<std::string>& texts) {
         for (const auto& text : texts) flags.settings.push_back(parse_setting(text));
         return true;
     };
-    command
+    command.app()
         .add_option_function<std::vector<std::string>>(
             "--set", keep,
             "Override a key of the file, repeatable: --set solve.error=0.003 "

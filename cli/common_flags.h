@@ -7,9 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace CLI {
-class App;
-}
+#include "cli/command.h"
 
 namespace tyndall::cli {
 
@@ -28,12 +26,12 @@ struct CommonFlags {
 };
 
 // Adds --threads, --quiet and --json to a subcommand.
-void add_common_flags(CLI::App& command, CommonFlags& flags);
+void add_common_flags(Command command, CommonFlags& flags);
 
 // Adds --seed, for subcommands that draw random numbers.
-void add_seed_flag(CLI::App& command, CommonFlags& flags);
+void add_seed_flag(Command command, CommonFlags& flags);
 
 // Adds --set key=value (repeatable), for subcommands that read a scene or a study.
-void add_set_flag(CLI::App& command, CommonFlags& flags);
+void add_set_flag(Command command, CommonFlags& flags);
 
 }  // namespace tyndall::cli

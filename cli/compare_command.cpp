@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -244,39 +243,39 @@ int compare_solution_files(const CompareOptions& options, const CommonFlags& fla
 
 void add_compare_command(Shell& shell) {
     const auto options = std::make_shared<CompareOptions>();
-    auto& command = shell.add_command(
+    auto command = shell.add_command(
         "compare", "Errors of a picture, or of a solution, against a reference", examples,
         [options](const CommonFlags& flags) {
             return wants_solutions(*options) ? compare_solution_files(*options, flags)
                                              : compare_pictures(*options, flags);
         });
     command
-        .add_option("A", options->picture,
-                    "Picture (.exr, .pfm), solution (.vtkhdf), or folder of a run")
-        ->required();
-    command.add_option("B", options->reference, "Reference, likewise")->required();
-    command.add_option("--layer", options->layer,
-                       "Layer to compare; direct_single: emission + surfaces_direct + "
-                       "single_scattering");
-    command.add_option("--difference", options->difference,
-                       "Write the difference as .png: red is too bright, blue too dark");
+        .option("A", options->picture,
+                "Picture (.exr, .pfm), solution (.vtkhdf), or folder of a run")
+        .required();
+    command.option("B", options->reference, "Reference, likewise").required();
+    command.option("--layer", options->layer,
+                   "Layer to compare; direct_single: emission + surfaces_direct + "
+                   "single_scattering");
+    command.option("--difference", options->difference,
+                   "Write the difference as .png: red is too bright, blue too dark");
     command
-        .add_option("--difference-range", options->difference_range,
-                    "Difference in full colour, in the layer's unit; else the 99.5th percentile")
-        ->check(CLI::PositiveNumber);
-    command.add_flag("--solutions", options->solutions,
-                     "Compare the folders' solutions instead of their pictures");
+        .option("--difference-range", options->difference_range,
+                "Difference in full colour, in the layer's unit; else the 99.5th percentile")
+        .positive();
+    command.flag("--solutions", options->solutions,
+                 "Compare the folders' solutions instead of their pictures");
     command
-        .add_option("--points", options->comparison.points,
-                    "Of solutions: points in the media, and as many on sides; 256 if not given")
-        ->check(CLI::Range(std::size_t(1), std::size_t(1) << 20));
+        .option("--points", options->comparison.points,
+                "Of solutions: points in the media, and as many on sides; 256 if not given")
+        .between(std::size_t(1), std::size_t(1) << 20);
     command
-        .add_option("--rays", options->comparison.rays,
-                    "Of solutions: gathered along at each point; 1024 if not given")
-        ->check(CLI::Range(std::size_t(1), std::size_t(1) << 24));
+        .option("--rays", options->comparison.rays,
+                "Of solutions: gathered along at each point; 1024 if not given")
+        .between(std::size_t(1), std::size_t(1) << 24);
     const auto add_limit = [&](const char* flag, std::optional<double>& limit) {
-        command.add_option(flag, limit, "Exit with 1 if this error, as a fraction, is larger")
-            ->check(CLI::NonNegativeNumber);
+        command.option(flag, limit, "Exit with 1 if this error, as a fraction, is larger")
+            .not_negative();
     };
     add_limit("--max-rmse", options->max_rmse);
     add_limit("--max-bias", options->max_bias);

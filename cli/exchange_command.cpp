@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -147,7 +146,7 @@ int exchange(const PairOptions& given, const CommonFlags& flags) {
 
 void add_exchange_command(Shell& shell) {
     const auto options = std::make_shared<PairOptions>();
-    auto& command = shell.add_command(
+    auto command = shell.add_command(
         "exchange", "Exchange areas between sides, media and outside",
         R"(  tyndall exchange room.toml
   tyndall exchange room.toml --method contour_integration --from lamp --to room.floor
@@ -155,24 +154,23 @@ void add_exchange_command(Shell& shell) {
         [options](const CommonFlags& flags) { return exchange(*options, flags); });
     add_seed_flag(command, shell.flags());
     add_set_flag(command, shell.flags());
-    command.add_option("SCENE", options->scene, "Scene file")->required();
-    command.add_option("--method", options->method,
-                       "How exchange areas are computed; solve.exchange if not given");
-    command.add_option("--from", options->from,
-                       "A side (floor+), a surface (floor: its sides), a medium, or outside; "
-                       "repeatable; all if not given");
-    command.add_option("--to", options->to, "As --from");
+    command.option("SCENE", options->scene, "Scene file").required();
+    command.option("--method", options->method,
+                   "How exchange areas are computed; solve.exchange if not given");
+    command.option("--from", options->from,
+                   "A side (floor+), a surface (floor: its sides), a medium, or outside; "
+                   "repeatable; all if not given");
+    command.option("--to", options->to, "As --from");
     command
-        .add_option("--tolerance", options->tolerance,
-                    "Relative, for the methods that have one; 1e-6 if not given")
-        ->check(CLI::Range(1e-14, 0.5));
+        .option("--tolerance", options->tolerance,
+                "Relative, for the methods that have one; 1e-6 if not given")
+        .between(1e-14, 0.5);
     command
-        .add_option(
-            "--rays", options->rays,
-            "For the methods that walk, from each facet and tetrahedron of the base mesh in "
-            "the mean (2^20 at most from a side or medium); 4096 if not given")
-        ->check(CLI::Range(std::size_t(1), std::size_t(1) << 24));
-    command.add_option("-o,--output", options->out, "CSV to write; else standard output");
+        .option("--rays", options->rays,
+                "For the methods that walk, from each facet and tetrahedron of the base mesh in "
+                "the mean (2^20 at most from a side or medium); 4096 if not given")
+        .between(std::size_t(1), std::size_t(1) << 24);
+    command.option("-o,--output", options->out, "CSV to write; else standard output");
 }
 
 }  // namespace tyndall::cli

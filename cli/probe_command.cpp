@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
-#include <CLI/CLI.hpp>
 #include <atomic>
 #include <iterator>
 #include <nlohmann/json.hpp>
@@ -116,20 +115,20 @@ int probe(const PointsOptions& options, const CommonFlags& flags) {
 
 void add_probe_command(Shell& shell) {
     const auto options = std::make_shared<PointsOptions>();
-    auto& command =
+    auto command =
         shell.add_command("probe", "Quantities at points, from the solution file alone",
                           R"(  tyndall probe out/ --points points.csv
   tyndall probe out/ --points walls.csv -o irradiance.csv --rays 65536)",
                           [options](const CommonFlags& flags) { return probe(*options, flags); });
     add_seed_flag(command, shell.flags());
-    command.add_option("OUT", options->solution, "Folder of a run, or a solution file")->required();
+    command.option("OUT", options->solution, "Folder of a run, or a solution file").required();
     command
-        .add_option("--points", options->points,
-                    "CSV with x,y,z (J and G) or x,y,z,nx,ny,nz (irradiance)")
-        ->required();
-    command.add_option("-o,--output", options->out, "CSV to write; else standard output");
-    command.add_option("--rays", options->rays, "Gathered along at each point; 4096 if not given")
-        ->check(CLI::Range(std::size_t(1), std::size_t(1) << 24));
+        .option("--points", options->points,
+                "CSV with x,y,z (J and G) or x,y,z,nx,ny,nz (irradiance)")
+        .required();
+    command.option("-o,--output", options->out, "CSV to write; else standard output");
+    command.option("--rays", options->rays, "Gathered along at each point; 4096 if not given")
+        .between(std::size_t(1), std::size_t(1) << 24);
 }
 
 }  // namespace tyndall::cli

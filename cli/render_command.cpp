@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -82,23 +81,23 @@ int make_and_write(const PictureOptions& options, const CommonFlags& flags) {
 
 void add_render_command(Shell& shell) {
     const auto options = std::make_shared<PictureOptions>();
-    auto& command = shell.add_command(
+    auto command = shell.add_command(
         "render", "A picture again, from the solution file alone", examples,
         [options](const CommonFlags& flags) { return make_and_write(*options, flags); });
     add_seed_flag(command, shell.flags());
     add_set_flag(command, shell.flags());
-    command.add_option("OUT", options->solution, "Folder of a run, or a solution file")->required();
-    command.add_option("-o,--output", options->out, "Picture: .exr, .pfm or .png")->required();
-    command.add_option("--camera", options->camera, "Camera of the scene; else the one solved for");
-    command.add_option("--method", options->method, "Render method; else the scene's");
-    command.add_option("--layer", options->layer,
-                       "Write this layer alone; direct_single: emission + surfaces_direct + "
-                       "single_scattering");
-    command.add_option("--samples", options->samples, "Rays a pixel")
-        ->check(CLI::Range(std::size_t(1), std::size_t(65536)));
-    command.add_option("--exposure", options->exposure, "Stops added to a PNG's exposure");
-    command.add_option("--white", options->white, "Radiance shown as white in a PNG [W/m2/sr]")
-        ->check(CLI::PositiveNumber);
+    command.option("OUT", options->solution, "Folder of a run, or a solution file").required();
+    command.option("-o,--output", options->out, "Picture: .exr, .pfm or .png").required();
+    command.option("--camera", options->camera, "Camera of the scene; else the one solved for");
+    command.option("--method", options->method, "Render method; else the scene's");
+    command.option("--layer", options->layer,
+                   "Write this layer alone; direct_single: emission + surfaces_direct + "
+                   "single_scattering");
+    command.option("--samples", options->samples, "Rays a pixel")
+        .between(std::size_t(1), std::size_t(65536));
+    command.option("--exposure", options->exposure, "Stops added to a PNG's exposure");
+    command.option("--white", options->white, "Radiance shown as white in a PNG [W/m2/sr]")
+        .positive();
 }
 
 }  // namespace tyndall::cli

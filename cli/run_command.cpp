@@ -1,4 +1,3 @@
-#include <CLI/CLI.hpp>
 #include <filesystem>
 
 #include "cli/commands.h"
@@ -74,19 +73,19 @@ int run(const RunOptions& options, const CommonFlags& flags, Picture picture) {
 void add(Shell& shell, const char* name, const char* purpose, const char* examples,
          Picture picture) {
     const auto options = std::make_shared<RunOptions>();
-    auto& command = shell.add_command(
+    auto command = shell.add_command(
         name, purpose, examples,
         [options, picture](const CommonFlags& flags) { return run(*options, flags, picture); });
     add_seed_flag(command, shell.flags());
     add_set_flag(command, shell.flags());
-    command.add_option("SCENE", options->scene, "Scene file")->required();
-    command.add_option("-o,--output", options->out, "Folder for the results")->required();
-    auto* resume = command.add_flag("--resume", options->passes.resume,
-                                    "Go on from the last finished pass in the folder");
+    command.option("SCENE", options->scene, "Scene file").required();
+    command.option("-o,--output", options->out, "Folder for the results").required();
+    const auto resume = command.flag("--resume", options->passes.resume,
+                                     "Go on from the last finished pass in the folder");
     command
-        .add_option("--replay", options->passes.replay,
-                    "Take the mesh of this pass (OUT/passes/NN.vtkhdf) or solution as it is")
-        ->excludes(resume);
+        .option("--replay", options->passes.replay,
+                "Take the mesh of this pass (OUT/passes/NN.vtkhdf) or solution as it is")
+        .excludes(resume);
 }
 
 }  // namespace

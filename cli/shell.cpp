@@ -92,13 +92,13 @@ Shell::Shell()
 
 Shell::~Shell() = default;
 
-CLI::App& Shell::add_command(const std::string& name, const std::string& purpose,
-                             const std::string& examples, Action action) {
+Command Shell::add_command(const std::string& name, const std::string& purpose,
+                           const std::string& examples, Action action) {
     auto* command = app_->add_subcommand(name, purpose);
     command->footer("Examples:\n" + examples);
     command->callback([this, action = std::move(action)] { chosen_ = action; });
-    add_common_flags(*command, flags_);
-    return *command;
+    add_common_flags(Command(*command), flags_);
+    return Command(*command);
 }
 
 int Shell::usage_error(const std::string& message) const {

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <filesystem>
 #include <map>
 
@@ -251,16 +250,16 @@ class Session {
 
 void add_study_command(Shell& shell) {
     const auto options = std::make_shared<StudyOptions>();
-    auto& command = shell.add_command(
+    auto command = shell.add_command(
         "study", "Discretization studies: many runs of a scene against a reference",
         R"(  tyndall study examples/studies/shafts_soft.toml -o study/
   tyndall study STUDY.toml -o study/ --json > rows.json       the same again only measures)",
         [options](const CommonFlags& flags) { return Session(*options, flags).run(); });
     add_seed_flag(command, shell.flags());
     add_set_flag(command, shell.flags());
-    command.add_option("STUDY", options->study, "Study file")->required();
-    command.add_option("-o,--output", options->out, "Folder for the results")->required();
-    command.add_flag("--again", options->again, "Make all runs anew, done ones and references too");
+    command.option("STUDY", options->study, "Study file").required();
+    command.option("-o,--output", options->out, "Folder for the results").required();
+    command.flag("--again", options->again, "Make all runs anew, done ones and references too");
 }
 
 }  // namespace tyndall::cli

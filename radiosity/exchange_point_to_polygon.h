@@ -14,7 +14,8 @@ namespace tyndall::radiosity {
 //   edges one point is enough; beside it many are.
 // Settings: `centres`, the points of an element (1: its centroid); `random_offsets`.
 // Errors: mesh::InputError for two zones; it names the pair and the methods that can do it.
-// Error: of first to second order in the distance of the points; rows close as well.
+// Error: of first to second order in the distance of the points (from points that stand by chance
+//   as their number to the −0.74); rows close as well.
 // Cost: of a pair, its points × the occluders that overlap the polygon.
 // Source: Nishita & Nakamae (1985); Lambert (1760).
 void exchange_point_to_polygon(const Discretization& discretization,

@@ -12,7 +12,7 @@ using namespace tyndall::cli;
 // A shell with one command, which does `action`.
 int run(const std::vector<const char*>& words, const Action& action) {
     Shell shell;
-    auto& command = shell.add_command("do", "Something", "  tyndall do", action);
+    const Command command = shell.add_command("do", "Something", "  tyndall do", action);
     add_seed_flag(command, shell.flags());
     add_set_flag(command, shell.flags());
     std::vector<const char*> arguments{"tyndall", "do"};
