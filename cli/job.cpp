@@ -39,7 +39,12 @@ std::shared_ptr<const radiosity::Enclosure> mesh_scene(const SceneFile& file,
 
 radiosity::Solution solve_scene(const SceneFile& file, ProgressLine& progress,
                                 const radiosity::Passes& passes) {
-    const auto enclosure = mesh_scene(file, progress);
+    return solve_scene(file, mesh_scene(file, progress), progress, passes);
+}
+
+radiosity::Solution solve_scene(const SceneFile& file,
+                                std::shared_ptr<const radiosity::Enclosure> enclosure,
+                                ProgressLine& progress, const radiosity::Passes& passes) {
     std::optional<radiosity::View> view;
     if (!file.view_camera.empty()) view = find_camera(file.cameras, file.view_camera).view();
     auto solution =

@@ -23,7 +23,10 @@ std::vector<std::string> override_texts(const CommonFlags& flags);
 std::shared_ptr<const radiosity::Enclosure> mesh_scene(const SceneFile& file,
                                                        ProgressLine& progress);
 
-// Meshes and solves, for the view that the scene names.
+// Solves, for the view that the scene names; meshes, where that has not been done.
+radiosity::Solution solve_scene(const SceneFile& file,
+                                std::shared_ptr<const radiosity::Enclosure> enclosure,
+                                ProgressLine& progress, const radiosity::Passes& passes = {});
 radiosity::Solution solve_scene(const SceneFile& file, ProgressLine& progress,
                                 const radiosity::Passes& passes = {});
 

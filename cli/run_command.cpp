@@ -3,6 +3,7 @@
 #include "cli/commands.h"
 #include "cli/job.h"
 #include "cli/passes.h"
+#include "cli/preview.h"
 #include "cli/run_report.h"
 #include "mesh/file_bytes.h"
 #include "radiosity/resources.h"
@@ -17,13 +18,15 @@ namespace fs = std::filesystem;
 struct RunOptions {
     std::string scene, out;
     PassChoice passes{};
+    PreviewChoice preview{};
 };
 
 enum class Picture { wanted, not_wanted };
 
 // The picture, or why there is none.
 std::string write_picture(const SceneFile& file, const radiosity::Solution& solution,
-                          const fs::path& folder, ProgressLine& progress, RunFacts& facts) {
+                          const fs::path& folder, ProgressLine& progress, Preview& preview,
+                          RunFacts& facts) {
     if (file.cameras.empty()) return "no picture: the scene has no camera.";
     const std::string stopped = "no picture: stopped on request. Make one: tyndall render '" +
                                 folder.string() + "' -o image.exr.";
@@ -35,6 +38,7 @@ std::string write_picture(const SceneFile& file, const radiosity::Solution& solu
     facts.written.push_back(folder / "image.exr");
     render::write_image(folder / "image.png", render::tone_map(image, file.tone_map));
     facts.written.push_back(folder / "image.png");
+    preview.show_last(image);
     return "";
 }
 
@@ -45,14 +49,18 @@ int run(const RunOptions& options, const CommonFlags& flags, Picture picture) {
     const fs::path folder(options.out);
     prepare_folder(folder);
     ProgressLine progress(flags);
-    const auto plan = plan_passes(file, folder, options.passes);
+    auto plan = plan_passes(file, folder, options.passes);
     facts.resumed_from = plan.resumed_from;
-    auto solution = solve_scene(file, progress, plan.passes);
+    const auto enclosure = mesh_scene(file, progress);
+    Preview preview(file, folder, options.preview, progress);
+    preview.show_surfaces(*enclosure);
+    plan.passes.watch = preview.watch();
+    auto solution = solve_scene(file, enclosure, progress, plan.passes);
     const auto solution_file = folder / "solution.vtkhdf";
     radiosity::write_solution(solution_file, solution, attachments_json(file));
     facts.written.push_back(solution_file);
     if (picture == Picture::wanted) {
-        const auto missing = write_picture(file, solution, folder, progress, facts);
+        const auto missing = write_picture(file, solution, folder, progress, preview, facts);
         if (!missing.empty()) solution.report.warnings.push_back(missing);
     }
     const bool pictured = facts.written.size() > 1;
@@ -86,6 +94,16 @@ void add(Shell& shell, const char* name, const char* purpose, const char* exampl
         .option("--replay", options->passes.replay,
                 "Take the mesh of this pass (OUT/passes/NN.vtkhdf) or solution as it is")
         .excludes(resume);
+    if (picture == Picture::not_wanted) return;
+    command.flag("--preview", options->preview.wanted,
+                 "A picture in DIR/preview.png as the solution evolves: surfaces at once, the "
+                 "medium as soon as it is solved");
+    command
+        .option("--preview-every", options->preview.every,
+                "The same, this many seconds apart at least")
+        .not_negative();
+    command.flag("--frames", options->preview.frames,
+                 "Keep these pictures, DIR/frames/0001.png and so on, for a film");
 }
 
 }  // namespace

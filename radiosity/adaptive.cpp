@@ -104,21 +104,21 @@ class Loop {
         rate(coarse);
         squared_error_ = 0.0;
         end_pass("coarse solution");
+        show("coarse solution", coarse);
 
         const Importance importance(*enclosure_, mesh_.forest(), view_, scale_);
         if (last && kept_.begin_with) mesh_.replay(kept_.begin_with->forest);
         direct_.update();
         note(direct_.refine(importance, adaptive() ? direct_share * goal : 1e300, limits(0.8),
-                            progress_, {asks_for(options_, "direct"), other_indicators(coarse)}));
+                            progress_,
+                            {asks_for(options_, "direct"), other_indicators(coarse),
+                             [&] { show("direct light", coarse); }}));
         direct_.sample_means();
         const LitPatches lit = leaf_light_.lit_patches();
         solve(coarse, &lit);
         end_pass("direct light");
-        if (saving(last)) {
-            const Fields indirect = leaf_light_.indirect(coarse);
-            kept_.save(
-                collect(coarse, [&](auto leaf, std::size_t b) { return indirect.at(leaf, b); }));
-        }
+        if (saving(last)) kept_.save(collect(coarse));
+        show("direct light", coarse);
 
         IndirectRefiner indirect(*enclosure_, mesh_, coarse.elements(), options_.gather_rays,
                                  options_.seed);
@@ -140,6 +140,7 @@ class Loop {
         solution.report.zones = mesh_.zone_leaf_count();
         solution.report.passes = passes_;
         if (saving(last)) kept_.save(solution);
+        if (!last && kept_.watch) kept_.watch("indirect light", [&] { return solution; });
         return solution;
     }
 
@@ -182,12 +183,24 @@ class Loop {
     void rate(const CoarseSolution& coarse);
     template <class Field>
     Solution collect(const CoarseSolution& coarse, Field&& indirect);
+    // With indirect light as the coarse solution knows it.
+    Solution collect(const CoarseSolution& coarse) {
+        const Fields indirect = leaf_light_.indirect(coarse);
+        return collect(coarse, [&](auto leaf, std::size_t b) { return indirect.at(leaf, b); });
+    }
 
     void note(const RefineResult& result) {
         stopped_ = stopped_ || result.stopped;
         limited_ = limited_ || result.limited;
         rays_ += result.rays;
         squared_error_ += result.squared_error;
+    }
+    void show(const std::string& pass, const CoarseSolution& coarse) {
+        if (!kept_.watch) return;
+        const double cpu = cpu_seconds(), wall = wall_seconds();
+        kept_.watch(pass, [&] { return collect(coarse); });
+        cpu_ += cpu_seconds() - cpu;  // is no part of the pass
+        wall_ += wall_seconds() - wall;
     }
     void begin_pass() {
         cpu_ = cpu_seconds();

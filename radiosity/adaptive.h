@@ -21,6 +21,10 @@ struct KeptMesh {
 struct Passes {
     // Called with a valid solution after every pass that leaves a finer mesh than `begin_with`.
     std::function<void(const Solution&)> save{};
+    // Called after every step that changes what would be seen, with the name of its pass and a
+    // function that makes a valid solution of what there is: to watch it evolve. What the solve
+    // returns is not shown again. The same bits with and without.
+    std::function<void(const std::string& pass, const std::function<Solution()>&)> watch{};
     // The mesh of such a solution, to begin refinement with, after the same initial mesh.
     std::shared_ptr<const KeptMesh> begin_with{};
     bool frozen = false;  // nothing is bisected beyond it

@@ -43,11 +43,12 @@ class DirectRefiner {
     struct Asked {
         bool direct = true;                       // departures from linear
         std::function<IndicatedErrors()> more{};  // of the leaves there are; empty: none
+        std::function<void()> bisected{};         // called when all leaves have their light again
     };
     // Bisects until Σ share ≤ goal, or a limit; share = weight (a error)², or weight error² of the
     // errors of `more`, which are those of what an element sends out. The largest counts.
     RefineResult refine(const Importance& importance, double goal, const RefineLimits& limits,
-                        const ProgressCallback& progress, const Asked& asked = {true, {}});
+                        const ProgressCallback& progress, const Asked& asked = {true, {}, {}});
 
     // Gives means by many points to the leaves that are left with an error which the power of all
     // direct light would feel. To be called where refinement ends.

@@ -194,7 +194,10 @@ RefineResult DirectRefiner::refine(const Importance& importance, double goal,
     for (;;) {
         update();
         result.squared_error = collect(importance, limits, asked, candidates);
-        if (first == 0.0) first = result.squared_error;
+        if (first == 0.0)
+            first = result.squared_error;
+        else if (asked.bisected)
+            asked.bisected();
         const double gone = first > goal && result.squared_error > 0.0
                                 ? std::log(first / result.squared_error) / std::log(first / goal)
                                 : 1.0;
