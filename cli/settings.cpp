@@ -9,13 +9,14 @@
 #include "radiosity/exchange_methods.h"
 #include "radiosity/indicators.h"
 #include "radiosity/smoothing.h"
+#include "radiosity/solvers.h"
 
 namespace tyndall::cli {
 namespace {
 
 constexpr std::array<std::string_view, 3> point_set_names{"sobol", "independent", "stratified"};
 constexpr std::array<std::string_view, 2> projection_names{"z_buffer", "walked"};
-constexpr std::array<std::string_view, 1> solver_names{"gmres"};
+constexpr std::array<std::string_view, 2> shot_names{"rows", "on_the_fly"};
 constexpr std::array<std::string_view, 5> refinement_names{"none", "uniform", "adaptive", "view",
                                                            "aligned"};
 constexpr std::array<std::string_view, 4> start_names{"single-zone", "base", "uniform", "mesh"};
@@ -117,12 +118,20 @@ constexpr Setting solve_settings[] = {
      [](T t, K k, Settings& s) { s.solve.exchange_settings.interaction_radius = t.number(k, {0.0, 1e9}); }},
     {{"smoothing", "\"none\", \"least_squares\" or \"scaling\"", "\"none\"", "how rows are changed so that reciprocity and closure both hold"},
      [](T t, K k, Settings& s) { s.solve.exchange_settings.smoothing = static_cast<radiosity::Smoothing>(t.choice(k, radiosity::smoothing_names())); }},
-    {{"solver", "name of a method", "\"gmres\"", "how the linear system is solved"},
-     [](T t, K k, Settings& s) { s.solve.solver = solver_names[t.choice(k, solver_names)]; }},
+    {{"solver", "name of a method", "\"gmres\"", "how the linear system is solved: \"gmres\" (or \"krylov\"), \"bicgstab\", \"gauss_seidel\" (or \"gathering\"), \"jacobi\", \"progressive_refinement\", \"direct\""},
+     [](T t, K k, Settings& s) { const auto names = radiosity::solver_names(); s.solve.solver = names[t.choice(k, names)]; }},
     {{"solver_tolerance", "number above 0 and below 1", "1e-6", "relative residual"},
      [](T t, K k, Settings& s) { s.solve.solver_tolerance = t.number(k, {0.0, 1.0, true, true}); }},
-    {{"solver_iterations", "whole number", "200", "at most"},
+    {{"solver_iterations", "whole number", "200", "at most: passes over the exchange areas; one shot of every element, in the mean"},
      [](T t, K k, Settings& s) { s.solve.solver_iterations = t.count(k, 1, 1'000'000); }},
+    {{"over_relaxation", "number above 0 and below 2", "1", "gauss_seidel and jacobi: each change times this"},
+     [](T t, K k, Settings& s) { s.solve.over_relaxation = t.number(k, {0.0, 2.0, true, true}); }},
+    {{"shots", "\"rows\" or \"on_the_fly\"", "\"rows\"", "progressive_refinement: where a shot's exchange areas come from: all rows, made first and kept; or the shooter's row, made when it shoots and forgotten"},
+     [](T t, K k, Settings& s) { s.solve.shots = static_cast<radiosity::Shots>(t.choice(k, shot_names)); }},
+    {{"overshooting", "true or false", "false", "progressive_refinement: shoots what is foreseen to arrive as well"},
+     [](T t, K k, Settings& s) { s.solve.overshooting = t.flag(k); }},
+    {{"ambient", "true or false", "false", "progressive_refinement: adds the ambient estimate of what is unshot, where it ends before its tolerance"},
+     [](T t, K k, Settings& s) { s.solve.ambient = t.flag(k); }},
     {{"seed", "whole number", "1", "of all random numbers"},
      [](T t, K k, Settings& s) { s.solve.seed = t.count(k, 0, 1ull << 53); }},
 };
@@ -173,6 +182,8 @@ const KeyTable& render_keys() {
 Settings read_settings(const TableReader& root) {
     Settings settings;
     read(root, "solve", solve_keys(), solve_settings, settings);
+    if (const auto trouble = radiosity::solver_trouble(settings.solve))
+        root.table("solve", solve_keys(), "[solve]").fail(trouble->key, trouble->message);
     settings.render.seed = settings.solve.seed;
     read(root, "render", render_keys(), render_settings, settings);
     return settings;

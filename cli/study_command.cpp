@@ -189,7 +189,7 @@ class Session {
         mesh::write_file(folder_ / "study.csv", study_csv(study_, rows_));
         write_plots(folder_, study_, rows_);
         mesh::write_file(folder_ / "targets.csv", targets_csv(targets_of(study_, rows_)));
-        mesh::write_file(folder_ / "study.md", summary_of(study_, rows_));
+        mesh::write_file(folder_ / "study.md", summary_of(folder_, study_, rows_));
     }
 
     int say_stopped() {

@@ -35,12 +35,15 @@ std::string escaped(const std::string& text) {
     return result;
 }
 
-// A range of positive numbers on an axis of the picture, from `begin` to `end` [pixel].
-struct LogAxis {
+// A range of numbers on an axis of the picture, from `begin` to `end` [pixel]: positive ones, or
+// linear from 0.
+struct Axis {
     double low, high, begin, end;
+    bool linear = false;
 
     double at(double value) const {
-        return begin + (end - begin) * std::log(value / low) / std::log(high / low);
+        return begin + (end - begin) *
+                           (linear ? value / high : std::log(value / low) / std::log(high / low));
     }
     bool holds(double value) const {
         return value >= low * (1 - 1e-9) && value <= high * (1 + 1e-9);
@@ -63,12 +66,22 @@ double round_up(double value) {
 }
 
 // From one round number to another, with room for the marks.
-LogAxis axis_for(std::vector<double> values, double begin, double end) {
+Axis axis_for(std::vector<double> values, double begin, double end) {
     if (values.empty()) values = {1.0, 100.0};
     constexpr double room = 1.05;
     const double low = *std::min_element(values.begin(), values.end()) / room;
     const double high = *std::max_element(values.begin(), values.end()) * room;
     return {round_down(low), round_up(high), begin, end};
+}
+
+Axis linear_axis_for(const std::vector<double>& values, double begin, double end) {
+    double high = 0.0;
+    for (const double value : values) high = std::max(high, value);
+    return {0.0, high > 0.0 ? 1.05 * high : 1.0, begin, end, true};
+}
+
+std::vector<double> ticks_of(const Axis& axis) {
+    return axis.linear ? linear_ticks(axis.high) : log_ticks(axis.low, axis.high);
 }
 
 class Drawing {
@@ -140,9 +153,9 @@ constexpr const char* frame = "stroke=\"#333333\" stroke-width=\"1\"";
 constexpr const char* dashed = "stroke=\"#777777\" stroke-width=\"1\" stroke-dasharray=\"5 4\"";
 
 // Lines at 2, 3, … 9 of every decade.
-std::vector<double> between(const LogAxis& axis) {
+std::vector<double> between(const Axis& axis) {
     std::vector<double> values;
-    if (axis.high / axis.low > 1e5) return values;
+    if (axis.linear || axis.high / axis.low > 1e5) return values;
     for (int decade = static_cast<int>(std::floor(std::log10(axis.low)));
          std::pow(10.0, decade) < axis.high; ++decade)
         for (int k = 2; k < 10; ++k)
@@ -150,14 +163,15 @@ std::vector<double> between(const LogAxis& axis) {
     return values;
 }
 
-void draw_axes(Drawing& d, const Plot& plot, const LogAxis& x, const LogAxis& y) {
+void draw_axes(Drawing& d, const Plot& plot, const Axis& x, const Axis& y) {
     for (const double v : between(x)) d.line(x.at(v), y.begin, x.at(v), y.end, fine_grid);
     for (const double v : between(y)) d.line(x.begin, y.at(v), x.end, y.at(v), fine_grid);
-    for (const double v : log_ticks(x.low, x.high)) {
+    for (const double v : ticks_of(x)) {
         d.line(x.at(v), y.begin, x.at(v), y.end, grid);
-        d.text(x.at(v), y.begin + 18, tick_text(v), "text-anchor=\"middle\"");
+        d.text(x.at(v), y.begin + 18, x.linear ? fmt::format("{:g}", v) : tick_text(v),
+               "text-anchor=\"middle\"");
     }
-    for (const double v : log_ticks(y.low, y.high)) {
+    for (const double v : ticks_of(y)) {
         d.line(x.begin, y.at(v), x.end, y.at(v), grid);
         d.text(x.begin - 8, y.at(v) + 4, tick_text(v), "text-anchor=\"end\"");
     }
@@ -171,9 +185,9 @@ void draw_axes(Drawing& d, const Plot& plot, const LogAxis& x, const LogAxis& y)
     d.text(x.begin, 26, plot.title, "font-size=\"15\" font-weight=\"bold\"");
 }
 
-std::string legend_text(const Curve& curve) {
+std::string legend_text(const Plot& plot, const Curve& curve) {
     const auto slope = fitted_slope(curve);
-    if (!slope) return curve.name;
+    if (!slope || !plot.slopes) return curve.name;
     return fmt::format("{}: slope {}{:.2f}", curve.name, *slope < 0.0 ? "−" : "", std::abs(*slope));
 }
 
@@ -192,6 +206,13 @@ std::vector<double> log_ticks(double low, double high) {
     return decades.size() < 3 ? finer : decades;
 }
 
+std::vector<double> linear_ticks(double high) {
+    const double step = round_up(high / 10.0);
+    std::vector<double> ticks;
+    for (int k = 0; k * step <= high * (1 + 1e-9); ++k) ticks.push_back(k * step);
+    return ticks;
+}
+
 std::string tick_text(double value) {
     const int decade = static_cast<int>(std::floor(std::log10(value) + 1e-9));
     if (decade >= -3 && decade < 4) return fmt::format("{:g}", value);
@@ -208,36 +229,40 @@ std::string svg_of(const Plot& plot) {
     std::vector<double> costs, errors;
     std::size_t longest = 0;
     for (const auto& curve : plot.curves) {
-        longest = std::max(longest, legend_text(curve).size());
+        longest = std::max(longest, legend_text(plot, curve).size());
         for (const auto& point : curve.points) {
             costs.push_back(point.cost);
-            errors.push_back(100.0 * point.error);
+            errors.push_back(plot.times * point.error);
         }
     }
     const double legend = legend_gap + 30 + letter * static_cast<double>(longest);
     const double height = std::max(top + plot_height + bottom,
                                    top + line_height * static_cast<double>(plot.curves.size() + 1));
     Drawing d(std::ceil(left + plot_width + legend), std::ceil(height));
-    const LogAxis x = axis_for(costs, left, left + plot_width);
-    const LogAxis y = axis_for(errors, top + plot_height, top);
+    const Axis x = plot.linear_x ? linear_axis_for(costs, left, left + plot_width)
+                                 : axis_for(costs, left, left + plot_width);
+    const Axis y = axis_for(errors, top + plot_height, top);
     draw_axes(d, plot, x, y);
     if (costs.empty())
         d.text(left + 0.5 * plot_width, top + 0.5 * plot_height, "no run to show",
                "text-anchor=\"middle\"");
     for (const double level : plot.levels)
-        if (y.holds(100.0 * level))
-            d.line(x.begin, y.at(100.0 * level), x.end, y.at(100.0 * level), dashed);
+        if (y.holds(plot.times * level))
+            d.line(x.begin, y.at(plot.times * level), x.end, y.at(plot.times * level), dashed);
     for (std::size_t c = 0; c < plot.curves.size(); ++c) {
         std::vector<std::array<double, 2>> points;
         for (const auto& p : plot.curves[c].points)
-            points.push_back({x.at(p.cost), y.at(100.0 * p.error)});
+            points.push_back({x.at(p.cost), y.at(plot.times * p.error)});
         d.polyline(points, colours[c % colours.size()]);
-        for (const auto& [px, py] : points) d.mark(px, py, c);
+        const std::size_t apart =
+            plot.marks > 0 ? (points.size() + plot.marks - 1) / plot.marks : 1;
+        for (std::size_t k = 0; k < points.size(); k += std::max<std::size_t>(1, apart))
+            d.mark(points[k][0], points[k][1], c);
         const double at = top + 12 + line_height * static_cast<double>(c);
         const double from = left + plot_width + legend_gap;
         d.polyline({{from, at}, {from + 22, at}}, colours[c % colours.size()]);
         d.mark(from + 11, at, c);
-        d.text(from + 30, at + 4, legend_text(plot.curves[c]), "");
+        d.text(from + 30, at + 4, legend_text(plot, plot.curves[c]), "");
     }
     return d.finish();
 }

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "cli/job.h"
+#include "cli/study_histories.h"
 #include "cli/study_plot.h"
 #include "cli/study_table.h"
 #include "mesh/file_bytes.h"
@@ -240,9 +241,11 @@ void write_plots(const std::filesystem::path& folder, const Study& study,
                     curves_of(rows, name, figure, cost), study.errors};
                 mesh::write_file(folder / "plots" / plot_name(name, figure, cost), svg_of(plot));
             }
+    write_history_plots(folder, study, rows);
 }
 
-std::string summary_of(const Study& study, const std::vector<StudyRow>& rows) {
+std::string summary_of(const std::filesystem::path& folder, const Study& study,
+                       const std::vector<StudyRow>& rows) {
     std::size_t failed = 0;
     for (const auto& row : rows) failed += row.record.failed();
     auto text = fmt::format("# {}\n\n{} runs of `{}`", study.title, rows.size(),
@@ -250,7 +253,8 @@ std::string summary_of(const Study& study, const std::vector<StudyRow>& rows) {
     if (failed > 0) text += fmt::format(", {} of which failed", failed);
     text += ". Errors are relative to the reference's mean. All figures: `study.csv`.\n\n";
     return text + target_tables(study, rows) + slope_table(study, rows) + run_table(study, rows) +
-           failures(rows) + plot_links(study);
+           failures(rows) + (compares_solvers(study) ? solvers_section(folder, rows) : "") +
+           plot_links(study);
 }
 
 }  // namespace tyndall::cli

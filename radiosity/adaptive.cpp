@@ -16,6 +16,7 @@
 #include "radiosity/resources.h"
 #include "radiosity/smoothing.h"
 #include "radiosity/solve_report.h"
+#include "radiosity/solvers.h"
 #include "radiosity/start_elements.h"
 #include "radiosity/thick_zones.h"
 
@@ -300,10 +301,12 @@ void Loop::solve(CoarseSolution& coarse, const LitPatches* lit) {
         escaped_direct_ = escaped_direct(*enclosure_, coarse, 16384, options_.seed);
     direct_power_check_ =
         conserve_direct_power(*enclosure_, e, light_, escaped_direct_, incident_direct_);
+    const std::size_t rays = coarse.rays();
     if (lit)
         coarse.solve(incident_direct_, incident_lit(*enclosure_, forest, e, *lit));
     else
         coarse.solve(incident_direct_);
+    rays_ += coarse.rays() - rays;  // of shots on the fly
 }
 
 // The picture's mean radiance and the solution's mean square, against which errors are measured.
@@ -391,9 +394,7 @@ Solution solve_adaptively(std::shared_ptr<const Enclosure> enclosure, const Solv
                         options.exchange));
     check_smoothing(options.exchange_settings.smoothing, options.row_detail);
     require_settings(exchange_method(options.exchange), options.exchange_settings);
-    if (options.solver != "gmres")
-        throw mesh::InputError(
-            fmt::format("there is no solver \"{}\". Choose \"gmres\".", options.solver));
+    check_solver(options);
     check_indicators(options);
     if (passes.begin_with) check_base(*enclosure, passes.begin_with->base);
     std::optional<tbb::global_control> threads;

@@ -211,8 +211,7 @@ Balance balance(const Enclosure& enclosure, const CoarseSolution& coarse,
             named(name)[b] += power;
             net[b] += power;
             brought[b] += pi * c * e.emission[k];
-            const ExchangeAreas& rows = coarse.areas(b);
-            const double escaping = pi * to_outside(rows, e, i);
+            const double escaping = pi * coarse.to_outside(i, b);
             outside[b] += escaping * (r - enclosure.environment[b]);
             brought[b] += escaping * enclosure.environment[b];
         }

@@ -1,8 +1,11 @@
 #include "radiosity/coarse_solution.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "radiosity/exchange_methods.h"
+#include "radiosity/solvers.h"
 
 namespace tyndall::radiosity {
 namespace {
@@ -29,9 +32,16 @@ CoarseSolution::CoarseSolution(const Enclosure& enclosure, const Forest& forest,
 
 CoarseSolution::CoarseSolution(const Enclosure& enclosure, const Forest& forest, Elements elements,
                                const SolveOptions& options, const ProgressCallback& progress)
-    : enclosure_(enclosure), forest_(forest), options_(options), elements_(std::move(elements)) {
+    : enclosure_(enclosure),
+      forest_(forest),
+      options_(options),
+      progress_(progress),
+      elements_(std::move(elements)) {
     const NamedExchangeMethod& method = exchange_method(options.exchange);
     require_settings(method, options.exchange_settings);
+    check_solver(options);
+    check_solver_size(solver_named(options.solver), elements_.size());
+    if (on_the_fly()) at_first_ = forest;
     for (std::size_t band = 0; band < enclosure.bands; ++band) {
         const std::size_t same = first_of_extinction(enclosure, band);
         if (same < band) {
@@ -39,18 +49,102 @@ CoarseSolution::CoarseSolution(const Enclosure& enclosure, const Forest& forest,
             continue;
         }
         matrix_.push_back(areas_.size());
-        areas_.push_back(
-            all_rows(method.method, {enclosure, forest, elements_},
-                     {.band = band,
-                      .rays = options.rays,
-                      .seed = options.seed,
-                      .settings = options.exchange_settings,
-                      .detail = options.row_detail,
-                      .radiance = method.moments ? options.radiance : Radiance::constant,
-                      .progress = progress,
-                      .lost_rays = &lost_rays_}));
+        if (on_the_fly()) {
+            areas_.emplace_back();
+            closure_.push_back(0.0);
+            find_outside(band);
+            continue;
+        }
+        ExchangeOptions chosen = exchange_options(band);
+        chosen.detail = options.row_detail;
+        chosen.radiance = method.moments ? options.radiance : Radiance::constant;
+        chosen.progress = progress;
+        areas_.push_back(all_rows(method.method, {enclosure, forest, elements_}, chosen));
         rays_ += elements_.size() * options.rays;
     }
+}
+
+// Without detail and moments, whose rows are not of elements alone.
+ExchangeOptions CoarseSolution::exchange_options(std::size_t band) const {
+    return {.band = band,
+            .rays = options_.rays,
+            .seed = options_.seed,
+            .settings = options_.exchange_settings,
+            .progress = {},
+            .lost_rays = &lost_rays_};
+}
+
+void CoarseSolution::make_rows(std::size_t band, std::span<const ElementId> rows,
+                               const RowSink& sink) const {
+    const auto check = [&](const Row& row) {
+        const double capacity = elements_.capacity[row.receiver.value * elements_.bands + band];
+        double sum = 0.0;
+        for (const double area : row.exchange_areas) sum += area;
+        double& worst = closure_[matrix_[band]];
+        if (capacity > 0.0) worst = std::max(worst, std::abs(sum - capacity) / capacity);
+        sink(row);
+    };
+    exchange_method(options_.exchange)
+        .method({enclosure_, at_first_, elements_}, rows, exchange_options(band), check);
+    rays_ += rows.size() * options_.rays;
+}
+
+// What goes out of every element: where something can, a pass over all rows that keeps nothing
+// else.
+void CoarseSolution::find_outside(std::size_t band) {
+    std::vector<double>& outside = outside_.emplace_back();
+    if (!enclosure_.open) return;
+    std::vector<ElementId> rows(elements_.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = ElementId(i);
+    outside.assign(rows.size(), 0.0);
+    make_rows(band, rows, [&](const Row& row) {
+        if (!row.columns.empty() && row.columns.back() == elements_.outside())
+            outside[row.receiver.value] = row.exchange_areas.back();
+    });
+}
+
+double CoarseSolution::to_outside(std::size_t element, std::size_t band) const {
+    if (!on_the_fly()) return radiosity::to_outside(areas(band), elements_, element);
+    const auto& outside = outside_[matrix_[band]];
+    return outside.empty() ? 0.0 : outside[element];
+}
+
+double CoarseSolution::closure_error(std::size_t band) const {
+    return on_the_fly() ? closure_[matrix_[band]]
+                        : radiosity::closure_error(areas(band), elements_, band);
+}
+
+double CoarseSolution::reciprocity_error(std::size_t band) const {
+    return on_the_fly() ? std::numeric_limits<double>::quiet_NaN()
+                        : radiosity::reciprocity_error(areas(band), elements_);
+}
+
+SolverResult CoarseSolution::solve_band(std::size_t band, std::span<const double> source,
+                                        double tolerance) const {
+    LinearProblem problem{elements_, areas(band), band, source};
+    if (on_the_fly()) {
+        problem.rows = [this, band](std::span<const ElementId> rows, const RowSink& sink) {
+            make_rows(band, rows, sink);
+        };
+        problem.outside = outside_[matrix_[band]];
+    }
+    return solver_named(options_.solver)
+        .solver(problem, {.tolerance = tolerance,
+                          .iterations = options_.solver_iterations,
+                          .over_relaxation = options_.over_relaxation,
+                          .overshooting = options_.overshooting,
+                          .ambient = options_.ambient,
+                          .progress = progress_});
+}
+
+// The worst of bands.
+void CoarseSolution::add_to_report(const SolverResult& result) {
+    report_.iterations = std::max(report_.iterations, result.iterations);
+    report_.shots += result.shots;
+    report_.residual = std::max(report_.residual, result.residual);
+    report_.converged = report_.converged && result.converged;
+    if (!result.history.empty()) report_.unshot_power += result.history.back().unshot_power;
+    report_.history.insert(report_.history.end(), result.history.begin(), result.history.end());
 }
 
 std::vector<Affine> CoarseSolution::linear_indirect() const {
@@ -77,7 +171,8 @@ std::vector<Affine> CoarseSolution::linear_indirect() const {
 }
 
 std::size_t CoarseSolution::memory() const {
-    std::size_t bytes = elements_.capacity.size() * 3 * sizeof(double);
+    std::size_t bytes = elements_.capacity.size() * 3 * sizeof(double) + at_first_.memory();
+    for (const auto& outside : outside_) bytes += outside.size() * sizeof(double);
     for (const auto& areas : areas_) bytes += areas.memory();
     return bytes;
 }
@@ -98,7 +193,7 @@ double CoarseSolution::lit_scale(const std::vector<double>& incident_direct,
         arrived += elements_.capacity[k] * incident_lit[k];
         if (elements_.is_patch(i))
             sent += elements_.scatter[k] * incident_direct[k] *
-                    (elements_.capacity[k] - to_outside(areas(band), elements_, i));
+                    (elements_.capacity[k] - to_outside(i, band));
     }
     return arrived > 0.0 ? sent / arrived : 1.0;
 }
@@ -109,34 +204,29 @@ void CoarseSolution::solve(const std::vector<double>& incident_direct,
     const std::size_t bands = elements_.bands, n = elements_.size();
     indirect_.assign(n * bands, 0.0);
     reflected_.assign(n * bands, 0.0);
-    report_ = {"gmres", 0, 0.0, true};
+    report_ = {};
+    report_.method = solver_named(options_.solver).name;
+    report_.converged = true;
     std::vector<double> source(n);
     for (std::size_t b = 0; b < bands; ++b) {
-        const ExchangeAreas& rows = areas(b);
         std::vector<double> from_outside(n, 0.0), arrived(n, 0.0);
         const double scale = apart ? lit_scale(incident_direct, incident_lit, b) : 0.0;
         for (std::size_t i = 0; i < n; ++i) {
             const double capacity = elements_.capacity[i * bands + b];
             if (capacity > 0.0)
-                from_outside[i] =
-                    to_outside(rows, elements_, i) / capacity * enclosure_.environment[b];
+                from_outside[i] = to_outside(i, b) / capacity * enclosure_.environment[b];
             const double sent =
                 apart && elements_.is_patch(i) ? 0.0 : incident_direct[i * bands + b];
             if (apart) arrived[i] = scale * incident_lit[i * bands + b];
             source[i] = elements_.emission[i * bands + b] - split_emission(i, b) +
                         elements_.scatter[i * bands + b] * (sent + arrived[i] + from_outside[i]);
         }
-        const LinearProblem problem{elements_, rows, b, source};
-        const SolverResult result =
-            solve_gmres(problem, {options_.solver_tolerance, options_.solver_iterations});
-        report_.iterations = std::max(report_.iterations, result.iterations);
-        report_.residual = std::max(report_.residual, result.residual);
-        report_.converged = report_.converged && result.converged;
-        const std::vector<double> received = multiply(rows, elements_, result.radiance);
+        const SolverResult result = solve_band(b, source, options_.solver_tolerance);
+        add_to_report(result);
         for (std::size_t i = 0; i < n; ++i) {
             const double capacity = elements_.capacity[i * bands + b];
             indirect_[i * bands + b] =
-                capacity > 0.0 ? received[i] / capacity + from_outside[i] + arrived[i] : 0.0;
+                capacity > 0.0 ? result.received[i] / capacity + from_outside[i] + arrived[i] : 0.0;
             reflected_[i * bands + b] = result.radiance[i];
             if (apart && elements_.is_patch(i))
                 reflected_[i * bands + b] +=
@@ -149,16 +239,13 @@ std::vector<double> CoarseSolution::carried(const std::vector<double>& departure
     const std::size_t bands = elements_.bands, n = elements_.size();
     std::vector<double> result(n * bands, 0.0), source(n);
     for (std::size_t b = 0; b < bands; ++b) {
-        const ExchangeAreas& rows = areas(b);
         for (std::size_t i = 0; i < n; ++i)
             source[i] = elements_.scatter[i * bands + b] * departure[i * bands + b];
         // An error of the error of 1 % is enough.
-        const SolverResult solved =
-            solve_gmres({elements_, rows, b, source}, {0.01, options_.solver_iterations});
-        const std::vector<double> received = multiply(rows, elements_, solved.radiance);
+        const SolverResult solved = solve_band(b, source, 0.01);
         for (std::size_t i = 0; i < n; ++i)
             if (const double c = elements_.capacity[i * bands + b]; c > 0.0)
-                result[i * bands + b] = received[i] / c;
+                result[i * bands + b] = solved.received[i] / c;
     }
     return result;
 }

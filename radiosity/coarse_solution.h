@@ -1,5 +1,5 @@
-// The coarse solution: rows of exchange areas kept, solved again whenever direct light is known
-// better.
+// The coarse solution: rows of exchange areas kept (or, with Shots::on_the_fly, made whenever one
+// is asked for), solved again whenever direct light is known better.
 #pragma once
 
 #include "radiosity/options.h"
@@ -19,8 +19,15 @@ class CoarseSolution {
 
     const Elements& elements() const { return elements_; }
     const Forest& forest() const { return forest_; }
+    // The rows; none where shots are on the fly.
     const ExchangeAreas& areas(std::size_t band) const { return areas_[matrix_[band]]; }
-    std::size_t rays() const { return rays_; }
+    // S_i,out [m^2].
+    double to_outside(std::size_t element, std::size_t band) const;
+    // max_i |Σ_j S_ij − c_i| / c_i of the rows that are kept, or have been made so far [-].
+    double closure_error(std::size_t band) const;
+    // Of the rows; NaN where none are kept: shots on the fly take S_ji to be S_ij [-].
+    double reciprocity_error(std::size_t band) const;
+    std::size_t rays() const { return rays_; }            // walked so far
     std::size_t lost_rays() const { return lost_rays_; }  // of them, by the walk's step cap
     std::size_t memory() const;
 
@@ -54,19 +61,31 @@ class CoarseSolution {
     ElementValues values(const std::vector<double>& incident_direct) const;
 
   private:
+    bool on_the_fly() const { return options_.shots == Shots::on_the_fly; }
+    ExchangeOptions exchange_options(std::size_t band) const;
+    void make_rows(std::size_t band, std::span<const ElementId> rows, const RowSink& sink) const;
+    void find_outside(std::size_t band);
+    SolverResult solve_band(std::size_t band, std::span<const double> source,
+                            double tolerance) const;
+    void add_to_report(const SolverResult& result);
     double lit_scale(const std::vector<double>& incident_direct,
                      const std::vector<double>& incident_lit, std::size_t band) const;
 
     const Enclosure& enclosure_;
     const Forest& forest_;
+    Forest at_first_;  // as it was when the elements were its leaves, for rows on the fly
     SolveOptions options_;
+    ProgressCallback progress_;
     Elements elements_;
     std::vector<ExchangeAreas> areas_;
     std::vector<std::size_t> matrix_;  // which of areas_ a band uses
+    // On the fly, of each of areas_: S_i,out of every element, nothing if the scene is closed.
+    std::vector<std::vector<double>> outside_;
+    mutable std::vector<double> closure_;  // of each of areas_, of rows made so far
     std::vector<double> indirect_, reflected_;
     SolverReport report_;
-    std::size_t rays_ = 0;
-    std::atomic<std::size_t> lost_rays_ = 0;
+    mutable std::size_t rays_ = 0;
+    mutable std::atomic<std::size_t> lost_rays_ = 0;
 };
 
 }  // namespace tyndall::radiosity

@@ -35,7 +35,16 @@ class ElementGradients {
     // solutions to more than nine digits need.
     std::vector<Direction> unrounded(std::span<const double> x) const;
 
+    // The neighbours n of an element and their weights w [1/m].
+    std::span<const std::uint32_t> neighbours_of(std::size_t element) const {
+        return std::span(neighbours_).subspan(starts_[element], count(element));
+    }
+    std::span<const glm::vec3> weights_of(std::size_t element) const {
+        return std::span(weights_).subspan(starts_[element], count(element));
+    }
+
   private:
+    std::size_t count(std::size_t element) const { return starts_[element + 1] - starts_[element]; }
     template <class Vector>
     std::vector<Vector> gradients(std::span<const double> x) const;
 

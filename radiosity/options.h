@@ -67,6 +67,12 @@ enum class Smoothing {
     scaling,        // symmetric factors of rows and columns
 };
 
+// Where progressive refinement takes the exchange areas of a shot from.
+enum class Shots {
+    rows,        // from the rows of all elements, made first and kept: their columns
+    on_the_fly,  // the shooter's row is made when it shoots, used as its column, and forgotten
+};
+
 // What the methods for exchange areas can be told, beside rays and seed; each reads what it has a
 // use for.
 struct ExchangeSettings {
@@ -87,7 +93,11 @@ struct SolveOptions {
     double error = 0.01;  // goal: estimated relative error of the picture, or of the solution [-]
     std::string exchange = "walked";  // method for exchange areas (exchange_methods.h)
     ExchangeSettings exchange_settings{};
-    std::string solver = "gmres";  // method for the linear system
+    std::string solver = "gmres";  // method for the linear system (solvers.h)
+    double over_relaxation = 1.0;  // of jacobi and gauss_seidel, 0 to 2 [-]
+    Shots shots = Shots::rows;     // of progressive_refinement
+    bool overshooting = false;     //   shoots what is foreseen to arrive as well
+    bool ambient = false;          //   adds the ambient estimate where it ends before its tolerance
     Start start = Start::uniform;
     Refinement refinement = Refinement::aligned;
     // By which errors leaves are bisected, by name (indicators.h), from Refinement::adaptive on.

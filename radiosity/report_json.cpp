@@ -45,6 +45,54 @@ PassReport pass_of(const Json& json) {
     return pass;
 }
 
+Json step_json(const SolverStep& step, Costs costs) {
+    Json json{{"band", step.band},
+              {"iterations", step.iterations},
+              {"shots", step.shots},
+              {"residual", step.residual},
+              {"unshot_power", step.unshot_power},
+              {"energy_balance", step.energy_balance},
+              {"ambient", step.ambient}};
+    if (costs == Costs::kept) json["cpu_seconds"] = step.cpu_seconds;
+    return json;
+}
+
+SolverStep step_of(const Json& json) {
+    SolverStep step;
+    step.band = json.at("band").get<std::size_t>();
+    step.iterations = json.at("iterations").get<std::size_t>();
+    step.shots = json.at("shots").get<std::size_t>();
+    step.cpu_seconds = json.value("cpu_seconds", 0.0);
+    step.residual = number(json.at("residual"));
+    step.unshot_power = number(json.at("unshot_power"));
+    step.energy_balance = number(json.at("energy_balance"));
+    step.ambient = number(json.at("ambient"));
+    return step;
+}
+
+Json solver_json(const SolverReport& solver, Costs costs) {
+    Json json{{"method", solver.method},     {"iterations", solver.iterations},
+              {"residual", solver.residual}, {"converged", solver.converged},
+              {"shots", solver.shots},       {"unshot_power", solver.unshot_power},
+              {"history", Json::array()}};
+    for (const auto& step : solver.history) json["history"].push_back(step_json(step, costs));
+    return json;
+}
+
+SolverReport solver_of(const Json& json) {
+    SolverReport solver;
+    solver.method = json.at("method").get<std::string>();
+    solver.iterations = json.at("iterations").get<std::size_t>();
+    solver.residual = number(json.at("residual"));
+    solver.converged = json.at("converged").get<bool>();
+    // Files of earlier versions do not have these.
+    solver.shots = json.value("shots", std::size_t(0));
+    solver.unshot_power = number(json.value("unshot_power", Json(0.0)));
+    for (const auto& step : json.value("history", Json::array()))
+        solver.history.push_back(step_of(step));
+    return solver;
+}
+
 Json spectrum_json(const Spectrum& spectrum) {
     return spectrum.size() == 1 ? Json(spectrum[0]) : Json(spectrum);
 }
@@ -94,10 +142,7 @@ Report report_of(const Json& json) {
     report.zones = json.at("zones").get<std::size_t>();
     report.solved_elements = json.at("solved_elements").get<std::size_t>();
     for (const auto& pass : json.at("passes")) report.passes.push_back(pass_of(pass));
-    const Json& solver = json.at("solver");
-    report.solver = {solver.at("method").get<std::string>(),
-                     solver.at("iterations").get<std::size_t>(), number(solver.at("residual")),
-                     solver.at("converged").get<bool>()};
+    report.solver = solver_of(json.at("solver"));
     report.closure_error = number(json.at("closure_error"));
     report.reciprocity_error = number(json.at("reciprocity_error"));
     if (const auto smoothing = json.find("smoothing"); smoothing != json.end())
@@ -127,10 +172,7 @@ std::string report_to_json(const Report& report, Costs costs) {
     json["solved_elements"] = report.solved_elements;
     json["passes"] = Json::array();
     for (const auto& pass : report.passes) json["passes"].push_back(pass_json(pass, costs));
-    json["solver"] = {{"method", report.solver.method},
-                      {"iterations", report.solver.iterations},
-                      {"residual", report.solver.residual},
-                      {"converged", report.solver.converged}};
+    json["solver"] = solver_json(report.solver, costs);
     json["closure_error"] = report.closure_error;
     json["reciprocity_error"] = report.reciprocity_error;
     if (report.smoothing) json["smoothing"] = smoothing_json(*report.smoothing);

@@ -11,6 +11,7 @@
 #include "radiosity/exchange.h"
 #include "radiosity/fields.h"
 #include "radiosity/options.h"
+#include "radiosity/solver_history.h"
 
 namespace tyndall::radiosity {
 
@@ -24,11 +25,15 @@ struct PassReport {
     double estimated_error = 0.0;  // [-]
 };
 
+// Of the last solve of the coarse solution: the worst of bands, their sums in shots and power.
 struct SolverReport {
     std::string method;
     std::size_t iterations = 0;
     double residual = 0.0;
     bool converged = false;
+    std::size_t shots = 0;            // of progressive refinement
+    double unshot_power = 0.0;        // [W]
+    std::vector<SolverStep> history;  // band after band
 };
 
 // Estimated relative errors, root mean squares, by their causes [-]. They do not know of each

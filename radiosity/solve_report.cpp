@@ -78,10 +78,9 @@ Report solve_report(const Enclosure& enclosure, const CoarseSolution& coarse,
         ending.for_picture && ending.picture_error ? *ending.picture_error : ending.solution_error;
     report.estimated_error = goal.total();
     for (std::size_t b = 0; b < enclosure.bands; ++b) {
-        report.closure_error =
-            std::max(report.closure_error, closure_error(coarse.areas(b), coarse.elements(), b));
-        report.reciprocity_error = std::max(report.reciprocity_error,
-                                            reciprocity_error(coarse.areas(b), coarse.elements()));
+        report.closure_error = std::max(report.closure_error, coarse.closure_error(b));
+        // The other way round a NaN, "not known", would be lost.
+        report.reciprocity_error = std::max(coarse.reciprocity_error(b), report.reciprocity_error);
         if (const auto& one = coarse.areas(b).smoothing)
             report.smoothing = report.smoothing ? worse_of(*report.smoothing, *one) : *one;
     }
@@ -111,8 +110,11 @@ Report solve_report(const Enclosure& enclosure, const CoarseSolution& coarse,
                         options.max_elements, options.max_memory, options.error));
     if (!report.solver.converged)
         report.warnings.push_back(
-            fmt::format("the solver did not converge: residual {:.2e} after {} iterations.",
-                        report.solver.residual, report.solver.iterations));
+            fmt::format("the solver ({}) did not converge: residual {:.2e} after {} iterations, "
+                        "{:.3g} W unshot. Raise solve.solver_iterations, loosen "
+                        "solve.solver_tolerance, or set solve.solver to \"gmres\".",
+                        report.solver.method, report.solver.residual, report.solver.iterations,
+                        report.solver.unshot_power));
     return report;
 }
 

@@ -1,108 +1,106 @@
-#include <Eigen/Core>
-#include <Eigen/SparseCore>
-#include <unsupported/Eigen/IterativeSolvers>
+#include "radiosity/solver_gmres.h"
 
-#include "radiosity/solver.h"
+#include <Eigen/Core>
+#include <Eigen/Jacobi>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
 
 namespace tyndall::radiosity {
-class SystemMatrix;
+namespace {
+
+using Vector = Eigen::VectorXd;
+using Matrix = Eigen::MatrixXd;
+
+constexpr Eigen::Index most_steps = 40;
+
+std::span<const double> values_of(const Vector& v) {
+    return {v.data(), static_cast<std::size_t>(v.size())};
 }
 
-// Eigen's matrix-free hook: the operator I − (a/c) S acts without being stored a second time.
-namespace Eigen::internal {
-template <>
-struct traits<tyndall::radiosity::SystemMatrix> : traits<SparseMatrix<double>> {};
-}  // namespace Eigen::internal
-
-namespace tyndall::radiosity {
-
-class SystemMatrix : public Eigen::EigenBase<SystemMatrix> {
+// An orthonormal basis of what k passes reach from a first vector, and the operator in it:
+// A V_k = V_{k+1} H_k.
+class Arnoldi {
   public:
-    using Scalar = double;
-    using RealScalar = double;
-    using StorageIndex = int;
-    enum {
-        ColsAtCompileTime = Eigen::Dynamic,
-        MaxColsAtCompileTime = Eigen::Dynamic,
-        IsRowMajor = false
-    };
-
-    explicit SystemMatrix(const LinearProblem& problem) : problem_(problem) {}
-    Eigen::Index rows() const { return static_cast<Eigen::Index>(problem_.elements.size()); }
-    Eigen::Index cols() const { return rows(); }
-    template <class Rhs>
-    Eigen::Product<SystemMatrix, Rhs, Eigen::AliasFreeProduct> operator*(
-        const Eigen::MatrixBase<Rhs>& x) const {
-        return {*this, x.derived()};
+    Arnoldi(const LinearProblem& problem, const Vector& first)
+        : problem_(problem),
+          length_(first.norm()),
+          v_(first.size(), most_steps + 1),
+          h_(Matrix::Zero(most_steps + 1, most_steps)) {
+        v_.col(0) = first / length_;
     }
-    const LinearProblem& problem() const { return problem_; }
+
+    // One pass. False if the space ends here.
+    bool extend() {
+        const Vector last = v_.col(steps_);
+        const auto reflected = reflect(problem_, values_of(last));
+        Vector w = last - Eigen::Map<const Vector>(reflected.data(), last.size());
+        const double before = w.norm();
+        // Twice: once leaves rounding behind where w nearly lies in the space.
+        for (int turn = 0; turn < 2; ++turn)
+            for (Eigen::Index k = 0; k <= steps_; ++k) {
+                const double along = v_.col(k).dot(w);
+                h_(k, steps_) += along;
+                w -= along * v_.col(k);
+            }
+        const double length = w.norm();
+        const bool more = length > 1e-14 * before;
+        h_(steps_ + 1, steps_) = more ? length : 0.0;
+        v_.col(steps_ + 1) = more ? Vector(w / length) : Vector(Vector::Zero(w.size()));
+        ++steps_;
+        return more;
+    }
+
+    // What leaves least: y of x = x0 + V y, and what it leaves.
+    struct Best {
+        Vector change, left;
+    };
+    Best best() const {
+        const Eigen::Index k = steps_;
+        Vector right = Vector::Zero(k + 1);
+        right[0] = length_;
+        const auto h = h_.topLeftCorner(k + 1, k);
+        const Vector y = h.colPivHouseholderQr().solve(right);
+        return {v_.leftCols(k) * y, v_.leftCols(k + 1) * (right - h * y)};
+    }
+
+    bool full() const { return steps_ == most_steps; }
 
   private:
     const LinearProblem& problem_;
+    double length_;
+    Matrix v_, h_;
+    Eigen::Index steps_ = 0;
 };
 
-std::vector<double> reflect(const LinearProblem& problem, std::span<const double> radiance) {
-    const Elements& e = problem.elements;
-    std::vector<double> result = multiply(problem.areas, e, radiance);
-    for (std::size_t i = 0; i < e.size(); ++i) {
-        const double capacity = e.capacity[i * e.bands + problem.band];
-        result[i] =
-            capacity > 0.0 ? e.scatter[i * e.bands + problem.band] * result[i] / capacity : 0.0;
-    }
-    return result;
-}
-
-}  // namespace tyndall::radiosity
-
-namespace Eigen::internal {
-template <class Rhs>
-struct generic_product_impl<tyndall::radiosity::SystemMatrix, Rhs, SparseShape, DenseShape,
-                            GemvProduct>
-    : generic_product_impl_base<tyndall::radiosity::SystemMatrix, Rhs,
-                                generic_product_impl<tyndall::radiosity::SystemMatrix, Rhs>> {
-    template <class Dest>
-    static void scaleAndAddTo(Dest& dest, const tyndall::radiosity::SystemMatrix& matrix,
-                              const Rhs& rhs, const double& alpha) {
-        const Eigen::VectorXd x = rhs;
-        const auto reflected = tyndall::radiosity::reflect(
-            matrix.problem(), {x.data(), static_cast<std::size_t>(x.size())});
-        for (Eigen::Index i = 0; i < x.size(); ++i)
-            dest[i] += alpha * (x[i] - reflected[static_cast<std::size_t>(i)]);
-    }
-};
-}  // namespace Eigen::internal
-
-namespace tyndall::radiosity {
+}  // namespace
 
 SolverResult solve_gmres(const LinearProblem& problem, const SolverOptions& options) {
-    const std::size_t n = problem.elements.size();
-    SolverResult result;
-    const Eigen::Map<const Eigen::VectorXd> source(problem.source.data(),
-                                                   static_cast<Eigen::Index>(n));
-    result.radiance.assign(n, 0.0);
-    if (source.norm() == 0.0) {
-        result.converged = true;
-        return result;
+    if (norm_of(problem.source) == 0.0) return dark(problem);
+    SolverHistory history(problem, options);
+    const auto n = static_cast<Eigen::Index>(problem.elements.size());
+    Vector x = Vector::Zero(n), left = Eigen::Map<const Vector>(problem.source.data(), n);
+    history.note(0, values_of(x), values_of(left));
+    const double goal = 0.5 * options.tolerance * history.source_norm();
+    std::size_t iterations = 0;
+    bool stopped = false;
+    while (left.norm() > goal && iterations < options.iterations && !stopped) {
+        const double before = left.norm();
+        Arnoldi arnoldi(problem, left);
+        Vector change;
+        for (bool more = true; more && iterations < options.iterations && !stopped;) {
+            more = arnoldi.extend() && !arnoldi.full();
+            auto best = arnoldi.best();
+            change = std::move(best.change);
+            stopped = !history.note(++iterations, values_of(x + change), values_of(best.left));
+            more = more && best.left.norm() > goal;
+        }
+        x += change;
+        const auto rest = left_of(problem, values_of(x));
+        left = Eigen::Map<const Vector>(rest.data(), n);
+        if (!(left.norm() < (1.0 - 1e-3) * before)) break;  // nothing more is to be gained
     }
-    const SystemMatrix matrix(problem);
-    Eigen::GMRES<SystemMatrix, Eigen::IdentityPreconditioner> gmres;
-    gmres.set_restart(40);
-    gmres.setTolerance(0.5 * options.tolerance);
-    gmres.setMaxIterations(static_cast<Eigen::Index>(options.iterations));
-    gmres.compute(matrix);
-    const Eigen::VectorXd x = gmres.solve(source);
-    std::copy(x.begin(), x.end(), result.radiance.begin());
-    result.iterations = static_cast<std::size_t>(gmres.iterations());
-
-    const auto reflected = reflect(problem, result.radiance);
-    double square = 0.0;
-    for (std::size_t i = 0; i < n; ++i) {
-        const double left = problem.source[i] + reflected[i] - result.radiance[i];
-        square += left * left;
-    }
-    result.residual = std::sqrt(square) / source.norm();
-    result.converged = result.residual <= options.tolerance;
-    return result;
+    return finish(problem, options, {x.begin(), x.end()}, iterations, history);
 }
 
 }  // namespace tyndall::radiosity

@@ -9,6 +9,7 @@
 #include "radiosity/coarse_solution.h"
 #include "radiosity/exchange_walked.h"
 #include "radiosity/refine.h"
+#include "radiosity/solver_gmres.h"
 #include "support/catch.h"
 #include "support/furnace.h"
 

@@ -3,7 +3,7 @@
 
 #include "radiosity/adaptive.h"
 #include "radiosity/exchange_walked.h"
-#include "radiosity/solver.h"
+#include "radiosity/solver_gmres.h"
 #include "support/catch.h"
 #include "support/cube.h"
 #include "support/reference.h"

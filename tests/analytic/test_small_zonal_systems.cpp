@@ -6,6 +6,7 @@
 
 #include "radiosity/coarse_solution.h"
 #include "radiosity/exchange_methods.h"
+#include "radiosity/solver_gmres.h"
 #include "radiosity/start_elements.h"
 #include "support/catch.h"
 #include "support/cube.h"

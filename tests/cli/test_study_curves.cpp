@@ -4,6 +4,7 @@
 
 #include "cli/mesh_pictures.h"
 #include "cli/probe_values_file.h"
+#include "cli/study_histories.h"
 #include "cli/study_plot.h"
 #include "cli/study_quality.h"
 #include "cli/study_summary.h"
@@ -146,7 +147,7 @@ TEST_CASE("Tables have a cell a column in every row") {
     CHECK(json.at("rows")[1].at("picture_rmse") == 0.005);
     CHECK(json.at("rows")[2].at("zones").is_null());
     CHECK(json.at("targets").size() == 3);
-    const auto summary = summary_of(study, rows);
+    const auto summary = summary_of({}, study, rows);
     CHECK_THAT(summary, Contains("1 of which failed") && Contains("### picture: RMSE") &&
                             Contains("| a | 2520; 2.52 s |"));
 }
@@ -169,6 +170,50 @@ TEST_CASE("Plots are well-formed, with axes, ticks, units and a legend of slopes
     plot.curves = {{"one", {{50, 0.02}}}};
     CHECK(svg_of(plot).find("nan") == std::string::npos);
     CHECK(svg_of(plot).find("inf") == std::string::npos);
+}
+
+TEST_CASE("Solver histories are curves of the slowest band, drawn on a linear axis of passes") {
+    std::vector<radiosity::SolverStep> history;
+    for (std::size_t band = 0; band < 2; ++band)
+        for (std::size_t k = 0; k <= 30 + 20 * band; ++k) {
+            radiosity::SolverStep step;
+            step.band = band;
+            step.iterations = k;
+            step.cpu_seconds = 0.01 * double(k);
+            step.residual = std::pow(0.5, double(k));
+            history.push_back(step);
+        }
+    const HistoryPlot *passes = nullptr, *seconds = nullptr;
+    for (const auto& plot : history_plots()) {
+        if (plot.file == "solver_residual_iterations.svg") passes = &plot;
+        if (plot.file == "solver_residual_cpu.svg") seconds = &plot;
+    }
+    REQUIRE(passes);
+    REQUIRE(seconds);
+    const Curve curve = history_curve("jacobi", history, *passes);
+    REQUIRE(curve.points.size() == 51);
+    CHECK(curve.points[0].cost == 0.0);
+    CHECK(curve.points[50].error == std::pow(0.5, 50.0));
+    // There is no 0 on a logarithmic axis of seconds.
+    CHECK(history_curve("jacobi", history, *seconds).points.size() == 50);
+    CHECK(history_curve("none", {}, *passes).points.empty());
+
+    Plot plot{"solvers", "passes", "residual [-]", {curve}, {}};
+    plot.times = 1.0, plot.slopes = false, plot.marks = 12, plot.linear_x = true;
+    const auto svg = svg_of(plot);
+    CHECK(well_formed(svg));
+    CHECK_THAT(svg, Contains(">0<") && Contains(">50<") && Contains(">1<") && Contains("jacobi"));
+    CHECK(svg.find("slope") == svg.npos);
+    std::size_t marks = 0;
+    for (auto at = svg.find("<circle"); at != svg.npos; at = svg.find("<circle", at + 1)) ++marks;
+    CHECK(marks <= 13);  // and one in the legend
+    CHECK(marks > 6);
+    CHECK(linear_ticks(52.5) == std::vector<double>{0, 10, 20, 30, 40, 50});
+
+    auto study = study_of_error();
+    CHECK_FALSE(compares_solvers(study));
+    study.matrices[0].axes[0].key = "solve.solver";
+    CHECK(compares_solvers(study));
 }
 
 TEST_CASE("Ticks stand at decades, and at 2 and 5 where there are few") {

@@ -9,6 +9,7 @@
 #include "radiosity/element_mesh.h"
 #include "radiosity/exchange_walked.h"
 #include "radiosity/row_accumulator.h"
+#include "radiosity/solver_gmres.h"
 #include "support/catch.h"
 #include "support/random_rays.h"
 #include "support/rooms.h"
