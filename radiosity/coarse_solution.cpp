@@ -128,29 +128,33 @@ SolverResult CoarseSolution::solve_band(std::size_t band, std::span<const double
         };
         problem.outside = outside_[matrix_[band]];
     }
+    // On kept rows a solver is done before a stop is worth what it costs the solution.
+    const ProgressCallback progress = [this](const Progress& now) {
+        return radiosity::report(progress_, now) || !on_the_fly();
+    };
     return solver_named(options_.solver)
         .solver(problem, {.tolerance = tolerance,
                           .iterations = options_.solver_iterations,
                           .over_relaxation = options_.over_relaxation,
                           .overshooting = options_.overshooting,
                           .ambient = options_.ambient,
-                          .progress = progress_});
+                          .progress = progress});
 }
 
 // The worst of bands.
-void CoarseSolution::add_to_report(const SolverResult& result) {
-    report_.iterations = std::max(report_.iterations, result.iterations);
-    report_.shots += result.shots;
-    report_.residual = std::max(report_.residual, result.residual);
-    report_.converged = report_.converged && result.converged;
-    if (!result.history.empty()) report_.unshot_power += result.history.back().unshot_power;
-    report_.history.insert(report_.history.end(), result.history.begin(), result.history.end());
+void CoarseSolution::add_to_report(const SolverResult& result, SolverReport& report) {
+    report.iterations = std::max(report.iterations, result.iterations);
+    report.shots += result.shots;
+    report.residual = std::max(report.residual, result.residual);
+    report.converged = report.converged && result.converged;
+    if (!result.history.empty()) report.unshot_power += result.history.back().unshot_power;
+    report.history.insert(report.history.end(), result.history.begin(), result.history.end());
 }
 
 std::vector<Affine> CoarseSolution::linear_indirect() const {
     const std::size_t bands = elements_.bands, n = elements_.size();
     std::vector<Affine> result(n * bands);
-    for (std::size_t k = 0; k < result.size(); ++k) result[k].constant = indirect_[k];
+    for (std::size_t k = 0; k < result.size(); ++k) result[k].constant = solved_.indirect[k];
     if (options_.radiance == Radiance::constant || !elements_.member_starts.empty()) return result;
     const auto gradients = areas_[0].gradients ? areas_[0].gradients
                                                : std::make_shared<const ElementGradients>(
@@ -200,39 +204,46 @@ double CoarseSolution::lit_scale(const std::vector<double>& incident_direct,
 
 void CoarseSolution::solve(const std::vector<double>& incident_direct,
                            const std::vector<double>& incident_lit) {
+    Solved solved;
+    solved.indirect.assign(elements_.size() * elements_.bands, 0.0);
+    solved.reflected.assign(elements_.size() * elements_.bands, 0.0);
+    solved.report.method = solver_named(options_.solver).name;
+    solved.report.converged = true;
+    bool stopped = false;
+    for (std::size_t b = 0; b < elements_.bands; ++b)
+        stopped = !add_band(b, incident_direct, incident_lit, solved) || stopped;
+    if (stopped && !solved_.indirect.empty()) return;
+    solved_ = std::move(solved);
+}
+
+// False if it was stopped.
+bool CoarseSolution::add_band(std::size_t b, const std::vector<double>& incident_direct,
+                              const std::vector<double>& incident_lit, Solved& solved) const {
     const bool apart = !incident_lit.empty();
     const std::size_t bands = elements_.bands, n = elements_.size();
-    indirect_.assign(n * bands, 0.0);
-    reflected_.assign(n * bands, 0.0);
-    report_ = {};
-    report_.method = solver_named(options_.solver).name;
-    report_.converged = true;
-    std::vector<double> source(n);
-    for (std::size_t b = 0; b < bands; ++b) {
-        std::vector<double> from_outside(n, 0.0), arrived(n, 0.0);
-        const double scale = apart ? lit_scale(incident_direct, incident_lit, b) : 0.0;
-        for (std::size_t i = 0; i < n; ++i) {
-            const double capacity = elements_.capacity[i * bands + b];
-            if (capacity > 0.0)
-                from_outside[i] = to_outside(i, b) / capacity * enclosure_.environment[b];
-            const double sent =
-                apart && elements_.is_patch(i) ? 0.0 : incident_direct[i * bands + b];
-            if (apart) arrived[i] = scale * incident_lit[i * bands + b];
-            source[i] = elements_.emission[i * bands + b] - split_emission(i, b) +
-                        elements_.scatter[i * bands + b] * (sent + arrived[i] + from_outside[i]);
-        }
-        const SolverResult result = solve_band(b, source, options_.solver_tolerance);
-        add_to_report(result);
-        for (std::size_t i = 0; i < n; ++i) {
-            const double capacity = elements_.capacity[i * bands + b];
-            indirect_[i * bands + b] =
-                capacity > 0.0 ? result.received[i] / capacity + from_outside[i] + arrived[i] : 0.0;
-            reflected_[i * bands + b] = result.radiance[i];
-            if (apart && elements_.is_patch(i))
-                reflected_[i * bands + b] +=
-                    elements_.scatter[i * bands + b] * incident_direct[i * bands + b];
-        }
+    std::vector<double> source(n), from_outside(n, 0.0), arrived(n, 0.0);
+    const double scale = apart ? lit_scale(incident_direct, incident_lit, b) : 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+        const double capacity = elements_.capacity[i * bands + b];
+        if (capacity > 0.0)
+            from_outside[i] = to_outside(i, b) / capacity * enclosure_.environment[b];
+        const double sent = apart && elements_.is_patch(i) ? 0.0 : incident_direct[i * bands + b];
+        if (apart) arrived[i] = scale * incident_lit[i * bands + b];
+        source[i] = elements_.emission[i * bands + b] - split_emission(i, b) +
+                    elements_.scatter[i * bands + b] * (sent + arrived[i] + from_outside[i]);
     }
+    const SolverResult result = solve_band(b, source, options_.solver_tolerance);
+    add_to_report(result, solved.report);
+    for (std::size_t i = 0; i < n; ++i) {
+        const double capacity = elements_.capacity[i * bands + b];
+        solved.indirect[i * bands + b] =
+            capacity > 0.0 ? result.received[i] / capacity + from_outside[i] + arrived[i] : 0.0;
+        solved.reflected[i * bands + b] = result.radiance[i];
+        if (apart && elements_.is_patch(i))
+            solved.reflected[i * bands + b] +=
+                elements_.scatter[i * bands + b] * incident_direct[i * bands + b];
+    }
+    return !result.stopped;
 }
 
 std::vector<double> CoarseSolution::carried(const std::vector<double>& departure) const {
@@ -257,8 +268,8 @@ ElementValues CoarseSolution::values(const std::vector<double>& incident_direct)
     for (std::size_t i = 0; i < elements_.size(); ++i)
         for (std::size_t b = 0; b < elements_.bands; ++b) {
             const std::size_t k = i * elements_.bands + b;
-            values.radiance.push_back(reflected_[k] + split_emission(i, b));
-            values.incident.push_back(incident_direct[k] + indirect_[k]);
+            values.radiance.push_back(solved_.reflected[k] + split_emission(i, b));
+            values.incident.push_back(incident_direct[k] + solved_.indirect[k]);
         }
     return values;
 }

@@ -33,8 +33,9 @@ class CoarseSolution {
 
     // Solves for r given H^A of every element ([element * bands + band]):
     //   r = e^R + a (H^A + S r / c).  e^R leaves out what direct light counts in closed form.
-    // With `incident_lit`, H from what patches reflect of direct light, r leaves that out of what
-    // is sent through the rows: it has arrived already.
+    // On the fly a stop asked for leaves what there was before, or a first solution as far as it
+    // came. With `incident_lit`, H from what patches reflect of direct light, r leaves that out of
+    // what is sent through the rows: it has arrived already.
     void solve(const std::vector<double>& incident_direct,
                const std::vector<double>& incident_lit = {});
 
@@ -44,16 +45,16 @@ class CoarseSolution {
     // the departure sent through the rows, once and again.
     std::vector<double> carried(const std::vector<double>& departure) const;
 
-    const SolverReport& report() const { return report_; }
+    const SolverReport& report() const { return solved_.report; }
     // S r / c with outside: the indirect part of H, and r itself [W/m^2/sr].
     double indirect(std::size_t element, std::size_t band) const {
-        return indirect_[element * elements_.bands + band];
+        return solved_.indirect[element * elements_.bands + band];
     }
     // The same in all its elements, linear where the solution is: each element's mean kept, no
     // value at a corner below 0 ([element * bands + band]).
     std::vector<Affine> linear_indirect() const;
     double reflected(std::size_t element, std::size_t band) const {
-        return reflected_[element * elements_.bands + band];
+        return solved_.reflected[element * elements_.bands + band];
     }
     // e^A: emission counted in closed form; 0 else.
     double split_emission(std::size_t element, std::size_t band) const;
@@ -61,13 +62,20 @@ class CoarseSolution {
     ElementValues values(const std::vector<double>& incident_direct) const;
 
   private:
+    struct Solved {
+        std::vector<double> indirect, reflected;  // [element * bands + band] [W/m^2/sr]
+        SolverReport report;
+    };
+
     bool on_the_fly() const { return options_.shots == Shots::on_the_fly; }
     ExchangeOptions exchange_options(std::size_t band) const;
     void make_rows(std::size_t band, std::span<const ElementId> rows, const RowSink& sink) const;
     void find_outside(std::size_t band);
     SolverResult solve_band(std::size_t band, std::span<const double> source,
                             double tolerance) const;
-    void add_to_report(const SolverResult& result);
+    static void add_to_report(const SolverResult& result, SolverReport& report);
+    bool add_band(std::size_t band, const std::vector<double>& incident_direct,
+                  const std::vector<double>& incident_lit, Solved& solved) const;
     double lit_scale(const std::vector<double>& incident_direct,
                      const std::vector<double>& incident_lit, std::size_t band) const;
 
@@ -82,8 +90,7 @@ class CoarseSolution {
     // On the fly, of each of areas_: S_i,out of every element, nothing if the scene is closed.
     std::vector<std::vector<double>> outside_;
     mutable std::vector<double> closure_;  // of each of areas_, of rows made so far
-    std::vector<double> indirect_, reflected_;
-    SolverReport report_;
+    Solved solved_;
     mutable std::size_t rays_ = 0;
     mutable std::atomic<std::size_t> lost_rays_ = 0;
 };

@@ -40,7 +40,7 @@ struct SolverOptions {
     // Of progressive refinement: the elements with at least this share of the largest unshot power
     // shoot before the largest is looked for again; 1: that one alone [-].
     double shooters = 0.7;
-    ProgressCallback progress{};
+    ProgressCallback progress{};  // after every step of the history
 };
 
 struct SolverResult {
@@ -48,6 +48,7 @@ struct SolverResult {
     std::size_t iterations = 0;
     double residual = 0.0;  // relative, measured, not the recurrence's [-]
     bool converged = false;
+    bool stopped = false;            // by the caller's progress
     std::vector<double> received{};  // Σ_j S_ij x_j, outside left out [W/sr]
     std::size_t shots = 0;           // of progressive refinement
     std::vector<SolverStep> history{};
@@ -62,9 +63,9 @@ std::vector<double> reflect(const LinearProblem& problem, std::span<const double
 // ρ = s + a/c S x − x. Cost: the same.
 std::vector<double> left_of(const LinearProblem& problem, std::span<const double> radiance);
 
-// |ρ| / |s| from which on an iteration has gone wrong for good; and |x| / |s| that no scene has that
-// absorbs anything: rows in single precision close to 1e-7, and where nothing is lost their rounding
-// is all that ends the light.
+// |ρ| / |s| from which on an iteration has gone wrong for good; and |x| / |s| that no scene has
+// that absorbs anything: rows in single precision close to 1e-7, and where nothing is lost their
+// rounding is all that ends the light.
 inline constexpr double diverged = 1e6;
 
 double norm_of(std::span<const double> values);

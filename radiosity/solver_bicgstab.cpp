@@ -28,8 +28,9 @@ class BiConjugate {
     SolverResult run() {
         const double goal = 0.5 * options_.tolerance * history_.source_norm();
         double at_restart = r_.norm();
-        bool more = true;
-        while (more && iterations_ < options_.iterations) {
+        bool stopped = false;
+        while (!stopped && r_.norm() < diverged * history_.source_norm() &&
+               iterations_ < options_.iterations) {
             if (r_.norm() <= goal || !step()) {
                 // What the recurrence leaves is not quite what x leaves.
                 const auto left = left_of(problem_, values_of(x_));
@@ -38,10 +39,12 @@ class BiConjugate {
                 at_restart = r_.norm();
                 restart();
             }
-            more = r_.norm() < diverged * history_.source_norm() &&
-                   history_.note(iterations_, values_of(x_), values_of(r_));
+            stopped = !history_.note(iterations_, values_of(x_), values_of(r_));
         }
-        return finish(problem_, options_, {x_.begin(), x_.end()}, iterations_, history_);
+        SolverResult result =
+            finish(problem_, options_, {x_.begin(), x_.end()}, iterations_, history_);
+        result.stopped = stopped;
+        return result;
     }
 
   private:

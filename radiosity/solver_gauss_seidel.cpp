@@ -66,15 +66,19 @@ SolverResult solve_gauss_seidel(const LinearProblem& problem, const SolverOption
     Gathering gathering(problem, options.over_relaxation);
     history.note(0, gathering.x(), problem.source);
     std::size_t iterations = 0;
-    for (double residual = 1.0; iterations < options.iterations && residual < diverged;) {
+    bool stopped = false;
+    for (double residual = 1.0;
+         residual > options.tolerance && residual < diverged && iterations < options.iterations;) {
         gathering.sweep();
         const SolverHistory::Uncounted uncounted(history);
         const std::vector<double> left = left_of(problem, gathering.x());
         residual = norm_of(left) / history.source_norm();
-        if (!history.note(++iterations, gathering.x(), left) || residual <= options.tolerance)
-            break;
+        stopped = !history.note(++iterations, gathering.x(), left);
+        if (stopped) break;
     }
-    return finish(problem, options, gathering.x(), iterations, history);
+    SolverResult result = finish(problem, options, gathering.x(), iterations, history);
+    result.stopped = stopped;
+    return result;
 }
 
 }  // namespace tyndall::radiosity

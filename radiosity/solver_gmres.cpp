@@ -100,7 +100,9 @@ SolverResult solve_gmres(const LinearProblem& problem, const SolverOptions& opti
         left = Eigen::Map<const Vector>(rest.data(), n);
         if (!(left.norm() < (1.0 - 1e-3) * before)) break;  // nothing more is to be gained
     }
-    return finish(problem, options, {x.begin(), x.end()}, iterations, history);
+    SolverResult result = finish(problem, options, {x.begin(), x.end()}, iterations, history);
+    result.stopped = stopped;
+    return result;
 }
 
 }  // namespace tyndall::radiosity

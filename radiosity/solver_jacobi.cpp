@@ -9,13 +9,18 @@ SolverResult solve_jacobi(const LinearProblem& problem, const SolverOptions& opt
     std::vector<double> left(problem.source.begin(), problem.source.end());
     history.note(0, x, left);
     std::size_t iterations = 0;
-    for (double residual = 1.0; iterations < options.iterations && residual < diverged;) {
+    bool stopped = false;
+    for (double residual = 1.0;
+         residual > options.tolerance && residual < diverged && iterations < options.iterations;) {
         for (std::size_t i = 0; i < x.size(); ++i) x[i] += options.over_relaxation * left[i];
         left = left_of(problem, x);  // (37)
         residual = norm_of(left) / history.source_norm();
-        if (!history.note(++iterations, x, left) || residual <= options.tolerance) break;
+        stopped = !history.note(++iterations, x, left);
+        if (stopped) break;
     }
-    return finish(problem, options, std::move(x), iterations, history);
+    SolverResult result = finish(problem, options, std::move(x), iterations, history);
+    result.stopped = stopped;
+    return result;
 }
 
 }  // namespace tyndall::radiosity

@@ -186,6 +186,7 @@ class Shooting {
         result.iterations = (shots_ + size_ - 1) / size_;
         result.residual = measured() / history_.source_norm();
         result.converged = enough;
+        result.stopped = stopped_;
         result.received = problem_.rows
                               ? received_
                               : multiply(problem_.areas, problem_.elements, result.radiance);

@@ -4,7 +4,8 @@
 #include <numbers>
 
 #include "mesh/input_error.h"
-#include "radiosity/exchange_methods.h"
+#include "radiosity/exchange_walked.h"
+#include "radiosity/report_json.h"
 #include "radiosity/solver_bicgstab.h"
 #include "radiosity/solver_direct.h"
 #include "radiosity/solver_gauss_seidel.h"
@@ -103,14 +104,15 @@ TEST_CASE("Every solver finds the dense system's solution", "[solvers]") {
     const double albedo = GENERATE(0.0, 0.5, 0.9, 1.0);
     const double reflectance = GENERATE(0.0, 0.5, 0.95);
     const Rows rows = GENERATE(Rows::constant, Rows::linear, Rows::detail, Rows::smoothed);
-    const FoggyBox box(albedo, reflectance, rows);
+    const double extinction = GENERATE(0.2, 1.0, 8.0);  // zones of a metre
+    const FoggyBox box(albedo, reflectance, rows, extinction);
     const SolverResult exact = solve_direct(box.problem(), {});
     REQUIRE(exact.converged);
     // Moments multiply gradients in single precision when x is multiplied as a whole, 6e-8 off.
     const double rounding = rows == Rows::linear ? 1e-6 : 0.0;
     const double tolerance = rows == Rows::linear ? 1e-6 : 1e-10;
     for (const auto& named : solvers()) {
-        CAPTURE(albedo, reflectance, static_cast<int>(rows), named.name);
+        CAPTURE(albedo, reflectance, extinction, static_cast<int>(rows), named.name);
         const SolverResult result =
             named.solver(box.problem(), {.tolerance = tolerance, .iterations = 10'000});
         CHECK(result.converged);
@@ -346,6 +348,7 @@ TEST_CASE("A caller can end every solver that iterates", "[solvers]") {
                                          }});
         CHECK(told == 3);
         CHECK_FALSE(result.converged);
+        CHECK(result.stopped);
     }
 }
 
@@ -368,6 +371,35 @@ TEST_CASE("Histories are thinned, and keep both ends", "[solvers]") {
     CHECK(result.history.back().unshot_power < 1e-4 * result.history.front().unshot_power);
 }
 
+TEST_CASE("A report keeps its solver's history", "[solvers]") {
+    const FoggyBox box(0.9, 0.8);
+    const SolverResult result = solve_progressive_refinement(box.problem(), {.tolerance = 1e-3});
+    Report report;
+    report.solver = {"progressive_refinement",
+                     result.iterations,
+                     result.residual,
+                     result.converged,
+                     result.shots,
+                     result.history.back().unshot_power,
+                     result.history};
+    const Report again = report_from_json(report_to_json(report, Costs::kept));
+    CHECK(again.solver.shots == result.shots);
+    CHECK(again.solver.unshot_power == report.solver.unshot_power);
+    REQUIRE(again.solver.history.size() == result.history.size());
+    for (std::size_t k = 0; k < result.history.size(); ++k) {
+        const SolverStep &a = result.history[k], &b = again.solver.history[k];
+        CHECK(a.iterations == b.iterations);
+        CHECK(a.shots == b.shots);
+        CHECK(a.residual == b.residual);
+        CHECK(a.unshot_power == b.unshot_power);
+        CHECK(a.energy_balance == b.energy_balance);
+        CHECK(a.ambient == b.ambient);
+        CHECK(a.cpu_seconds == b.cpu_seconds);
+    }
+    // Solution files are the same at any number of threads: no seconds in them.
+    CHECK(report_to_json(report, Costs::left_out).find("seconds") == std::string::npos);
+}
+
 TEST_CASE("Solvers by name", "[solvers]") {
     CHECK(solvers().front().name == "gmres");
     CHECK(solver_named("gathering").name == "gauss_seidel");
@@ -378,10 +410,8 @@ TEST_CASE("Solvers by name", "[solvers]") {
     CHECK_NOTHROW(check_solver(
         {.solver = "progressive_refinement", .shots = Shots::on_the_fly, .overshooting = true}));
     CHECK_THROWS_WITH(check_solver({.shots = Shots::on_the_fly}),
-                      Contains("\"gmres\" knows no shots") &&
-                          Contains("progressive_refinement"));
-    CHECK_THROWS_WITH(check_solver({.over_relaxation = 1.2}),
-                      Contains("gauss_seidel, jacobi"));
+                      Contains("\"gmres\" knows no shots") && Contains("progressive_refinement"));
+    CHECK_THROWS_WITH(check_solver({.over_relaxation = 1.2}), Contains("gauss_seidel, jacobi"));
     CHECK_THROWS_WITH(check_solver({.solver = "jacobi", .over_relaxation = 2.0}),
                       Contains("over_relaxation is 2"));
     CHECK_THROWS_WITH(check_solver({.exchange_settings = {.smoothing = Smoothing::scaling},
@@ -394,6 +424,5 @@ TEST_CASE("Solvers by name", "[solvers]") {
         Contains("row_detail = 1"));
     CHECK_NOTHROW(check_solver_size(solver_named("gmres"), 1'000'000));
     CHECK_THROWS_WITH(check_solver_size(solver_named("direct"), 20'000),
-                      Contains("up to 6000 elements") && Contains("20000") &&
-                          Contains("gmres"));
+                      Contains("up to 6000 elements") && Contains("20000") && Contains("gmres"));
 }
