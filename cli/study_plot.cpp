@@ -37,7 +37,7 @@ std::string escaped(const std::string& text) {
 
 // A range of numbers on an axis of the picture, from `begin` to `end` [pixel]: positive ones, or
 // linear from 0.
-struct Axis {
+struct PlotAxis {
     double low, high, begin, end;
     bool linear = false;
 
@@ -66,7 +66,7 @@ double round_up(double value) {
 }
 
 // From one round number to another, with room for the marks.
-Axis axis_for(std::vector<double> values, double begin, double end) {
+PlotAxis axis_for(std::vector<double> values, double begin, double end) {
     if (values.empty()) values = {1.0, 100.0};
     constexpr double room = 1.05;
     const double low = *std::min_element(values.begin(), values.end()) / room;
@@ -74,13 +74,13 @@ Axis axis_for(std::vector<double> values, double begin, double end) {
     return {round_down(low), round_up(high), begin, end};
 }
 
-Axis linear_axis_for(const std::vector<double>& values, double begin, double end) {
+PlotAxis linear_axis_for(const std::vector<double>& values, double begin, double end) {
     double high = 0.0;
     for (const double value : values) high = std::max(high, value);
     return {0.0, high > 0.0 ? 1.05 * high : 1.0, begin, end, true};
 }
 
-std::vector<double> ticks_of(const Axis& axis) {
+std::vector<double> ticks_of(const PlotAxis& axis) {
     return axis.linear ? linear_ticks(axis.high) : log_ticks(axis.low, axis.high);
 }
 
@@ -153,7 +153,7 @@ constexpr const char* frame = "stroke=\"#333333\" stroke-width=\"1\"";
 constexpr const char* dashed = "stroke=\"#777777\" stroke-width=\"1\" stroke-dasharray=\"5 4\"";
 
 // Lines at 2, 3, … 9 of every decade.
-std::vector<double> between(const Axis& axis) {
+std::vector<double> between(const PlotAxis& axis) {
     std::vector<double> values;
     if (axis.linear || axis.high / axis.low > 1e5) return values;
     for (int decade = static_cast<int>(std::floor(std::log10(axis.low)));
@@ -163,7 +163,7 @@ std::vector<double> between(const Axis& axis) {
     return values;
 }
 
-void draw_axes(Drawing& d, const Plot& plot, const Axis& x, const Axis& y) {
+void draw_axes(Drawing& d, const Plot& plot, const PlotAxis& x, const PlotAxis& y) {
     for (const double v : between(x)) d.line(x.at(v), y.begin, x.at(v), y.end, fine_grid);
     for (const double v : between(y)) d.line(x.begin, y.at(v), x.end, y.at(v), fine_grid);
     for (const double v : ticks_of(x)) {
@@ -239,9 +239,9 @@ std::string svg_of(const Plot& plot) {
     const double height = std::max(top + plot_height + bottom,
                                    top + line_height * static_cast<double>(plot.curves.size() + 1));
     Drawing d(std::ceil(left + plot_width + legend), std::ceil(height));
-    const Axis x = plot.linear_x ? linear_axis_for(costs, left, left + plot_width)
-                                 : axis_for(costs, left, left + plot_width);
-    const Axis y = axis_for(errors, top + plot_height, top);
+    const PlotAxis x = plot.linear_x ? linear_axis_for(costs, left, left + plot_width)
+                                     : axis_for(costs, left, left + plot_width);
+    const PlotAxis y = axis_for(errors, top + plot_height, top);
     draw_axes(d, plot, x, y);
     if (costs.empty())
         d.text(left + 0.5 * plot_width, top + 0.5 * plot_height, "no run to show",

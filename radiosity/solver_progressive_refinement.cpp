@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "radiosity/column_shares.h"
 #include "radiosity/exchange_columns.h"
@@ -13,16 +14,47 @@ namespace {
 // Rows made on the fly at a time: enough for every thread, few enough to hold.
 constexpr std::size_t rows_at_once = 64;
 
-// The columns of kept rows, and what of them an element's value counts in.
+// The columns of kept rows, and what they have yet to send. What an element shoots counts in its
+// own column, which goes out at once, and in those of the nodes above it and in the gradients of
+// its neighbours: these wait until they have as much to send as others.
 struct KeptColumns {
     explicit KeptColumns(const LinearProblem& problem)
         : shares(problem.areas, problem.elements),
           columns(columns_of(problem.areas, shares.columns())),
-          self(self_shares(problem, shares)) {}
+          self(self_shares(problem, shares)),
+          values(shares.columns(), 0.0),
+          whole(shares.columns(), 0.0) {
+        const bool linear = !columns.moments.empty();
+        if (linear) gradients.assign(shares.columns(), Direction(0.0));
+        if (linear) whole_moments.assign(shares.columns(), 0.0);
+        for (std::size_t j = 0; j < shares.columns(); ++j)
+            for (std::size_t k = columns.starts[j]; k < columns.starts[j + 1]; ++k) {
+                whole[j] += static_cast<double>(columns.values[k]);
+                if (linear) whole_moments[j] += glm::length(Direction(columns.moments[k]));
+            }
+    }
+
+    // At most what a column that waits would send [W/sr].
+    double waiting(std::size_t j) const {
+        double power = whole[j] * std::abs(values[j]);
+        if (!gradients.empty()) power += whole_moments[j] * glm::length(gradients[j]);
+        return power;
+    }
+
+    void add(std::size_t element, double power) {
+        for (const auto& part : shares.of(element)) {
+            values[part.column] += power * part.share;
+            if (!gradients.empty()) gradients[part.column] += power * part.gradient;
+        }
+    }
 
     ColumnShares shares;
     ExchangeColumns columns;
-    std::vector<double> self;  // a_i S_ii/c_i of every element
+    std::vector<double> self;           // a_i S_ii/c_i of every element
+    std::vector<double> values;         // of columns: yet to be sent [W/m^2/sr]
+    std::vector<Direction> gradients;   // the same [W/m^3/sr]; empty: there are none
+    std::vector<double> whole;          // Σ_i S_ij [m^2]
+    std::vector<double> whole_moments;  // Σ_i |M_ij| [m^3]
 };
 
 class Shooting {
@@ -48,6 +80,8 @@ class Shooting {
         const std::size_t most = options_.iterations * size_;
         while (!stopped_ && !goes_round() && shots_ < most) {
             if (norm_of(unshot_) <= goal) {
+                send_all();
+                if (norm_of(unshot_) > goal) continue;
                 const double left = measured();
                 if (left <= options_.tolerance * history_.source_norm()) break;
                 goal *= 0.5 * options_.tolerance * history_.source_norm() / left;
@@ -61,18 +95,20 @@ class Shooting {
     }
 
   private:
-    // The elements with the most to shoot, the one with most first.
+    // The elements with the most to shoot, and the columns with as much waiting; the one with most
+    // first.
     std::vector<ElementId> next_shooters() {
         overshot_ =
             options_.overshooting ? ambient_estimate(problem_, unshot_, outside_area_) : 0.0;
         double most = 0.0;
-        powers_.resize(size_);
-        for (std::size_t i = 0; i < size_; ++i) {
-            powers_[i] = problem_.capacity(i) * std::abs(to_shoot(i));
+        powers_.assign(kept_ ? kept_->shares.columns() : size_, 0.0);
+        for (std::size_t i = 0; i < powers_.size(); ++i) {
+            if (i < size_) powers_[i] = problem_.capacity(i) * std::abs(to_shoot(i));
+            if (kept_) powers_[i] += kept_->waiting(i);
             most = std::max(most, powers_[i]);
         }
         std::vector<ElementId> shooters;
-        for (std::size_t i = 0; i < size_ && most > 0.0; ++i)
+        for (std::size_t i = 0; i < powers_.size() && most > 0.0; ++i)
             if (powers_[i] >= options_.shooters * most) shooters.push_back(ElementId(i));
         std::stable_sort(shooters.begin(), shooters.end(), [&](ElementId a, ElementId b) {
             return powers_[a.value] > powers_[b.value];
@@ -95,23 +131,38 @@ class Shooting {
     }
 
     void shoot_column(std::size_t i) {
-        const double power = to_shoot(i) * over_itself(kept_->self[i]);
-        unshot_[i] -= power;
-        const ExchangeColumns& columns = kept_->columns;
-        for (const auto& part : kept_->shares.of(i)) {
-            const double share = power * part.share;
-            const Direction gradient = power * part.gradient;
-            for (std::size_t k = columns.starts[part.column]; k < columns.starts[part.column + 1];
-                 ++k) {
-                double arrived = share * static_cast<double>(columns.values[k]);
-                if (!columns.remainders.empty())
-                    arrived += share * static_cast<double>(columns.remainders[k]);
-                if (!columns.moments.empty())
-                    arrived += glm::dot(gradient, Direction(columns.moments[k]));
-                receive(columns.rows[k], arrived);
-            }
+        if (i < size_) {
+            const double power = to_shoot(i) * over_itself(kept_->self[i]);
+            unshot_[i] -= power;
+            kept_->add(i, power);
+            ended_ += history_.ends()[i] * power;
         }
-        end_shot(history_.ends()[i] * power);
+        send(i);
+        end_shot();
+    }
+
+    // What waits in a column goes to all rows.
+    void send(std::size_t j) {
+        const ExchangeColumns& columns = kept_->columns;
+        const double value = std::exchange(kept_->values[j], 0.0);
+        const std::size_t begin = columns.starts[j], end = columns.starts[j + 1];
+        if (columns.moments.empty()) {
+            for (std::size_t k = begin; k < end; ++k)
+                receive(columns.rows[k], value * static_cast<double>(columns.values[k]));
+        } else {
+            const Direction gradient = std::exchange(kept_->gradients[j], Direction(0.0));
+            for (std::size_t k = begin; k < end; ++k)
+                receive(columns.rows[k], value * static_cast<double>(columns.values[k]) +
+                                             glm::dot(gradient, Direction(columns.moments[k])));
+        }
+        if (columns.remainders.empty()) return;
+        for (std::size_t k = begin; k < end; ++k)
+            receive(columns.rows[k], value * static_cast<double>(columns.remainders[k]));
+    }
+
+    void send_all() {
+        for (std::size_t j = 0; kept_ && j < kept_->shares.columns(); ++j)
+            if (kept_->waiting(j) > 0.0) send(j);
     }
 
     // S_ji is what the shooter's row says of S_ij.
@@ -122,18 +173,17 @@ class Shooting {
             if (row.columns[k] == i) itself = factors_[i] * row.exchange_areas[k];
         const double power = to_shoot(i) * over_itself(itself);
         unshot_[i] -= power;
-        double ended = 0.0;
         for (std::size_t k = 0; k < row.columns.size(); ++k) {
             const std::size_t j = row.columns[k];
             const double arrived = power * row.exchange_areas[k];
             if (j == outside) {
-                ended += arrived;
+                ended_ += arrived;
                 continue;
             }
-            ended += (1.0 - problem_.scatter(j)) * arrived;
+            ended_ += (1.0 - problem_.scatter(j)) * arrived;
             receive(j, arrived);
         }
-        end_shot(ended);
+        end_shot();
     }
 
     void receive(std::size_t j, double arrived) {
@@ -141,8 +191,7 @@ class Shooting {
         unshot_[j] += factors_[j] * arrived;  // (39)
     }
 
-    void end_shot(double ended) {
-        ended_ += ended;
+    void end_shot() {
         ++shots_;
         if (history_.wants(shots_)) stopped_ = !history_.note_shots(shots_, ended_, unshot_);
     }
@@ -174,6 +223,7 @@ class Shooting {
     }
 
     SolverResult result() {
+        send_all();
         history_.note_end_of_shots(shots_, ended_, unshot_);
         const bool enough = measured() <= options_.tolerance * history_.source_norm();
         if (options_.ambient && !enough) {

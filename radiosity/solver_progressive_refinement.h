@@ -27,6 +27,8 @@ namespace tyndall::radiosity {
 //   It is Southwell's relaxation (Gortler, Cohen & Slusallek 1994): for entries ≥ 0 the unshot
 //   power falls with every shot, in whatever order. Rows with moments have entries below 0 in the
 //   system; that it converges for them is measured, not proved.
+//   The gradients that a shot changes in its neighbours, and the nodes above it, have columns of
+//   their own, which go out when they have as much to send as an element has.
 // Units: `iterations` of the result is shots / elements, rounded up.
 // Errors: none; not converged is a result.
 // Cost: a column a shot, by one thread; on the fly a row of rays, in parallel over the elements
