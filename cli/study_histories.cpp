@@ -31,12 +31,12 @@ std::string name_of(const StudyRun& run, const std::vector<StudyRow>& rows) {
     return on_curve > 1 && run.along ? fmt::format("{}, {:g}", run.curve, *run.along) : run.curve;
 }
 
-std::optional<radiosity::SolverReport> solver_of(const std::filesystem::path& folder,
-                                                 const StudyRow& row) {
+std::optional<radiosity::Report> report_of(const std::filesystem::path& folder,
+                                           const StudyRow& row) {
     if (row.record.failed()) return std::nullopt;
     try {
         const auto path = folder / "runs" / row.run.slug / "report.json";
-        return radiosity::report_from_json(mesh::read_file(path)).solver;
+        return radiosity::report_from_json(mesh::read_file(path));
     } catch (const mesh::InputError&) {
         return std::nullopt;  // of an earlier version, or taken away
     }
@@ -77,12 +77,14 @@ const std::vector<HistoryPlot>& history_plots() {
 }
 
 Curve history_curve(const std::string& name, const std::vector<SolverStep>& history,
-                    const HistoryPlot& plot) {
+                    std::size_t elements, const HistoryPlot& plot) {
     Curve curve{name, {}};
     for (const auto& step : history.empty() ? history : slowest_band(history)) {
         const double value = plot.value(step);
-        const double cost =
-            plot.against_iterations ? static_cast<double>(step.iterations) : step.cpu_seconds;
+        const double passes = step.shots > 0 && elements > 0
+                                  ? static_cast<double>(step.shots) / static_cast<double>(elements)
+                                  : static_cast<double>(step.iterations);
+        const double cost = plot.against_iterations ? passes : step.cpu_seconds;
         if ((plot.against_iterations || cost > 0.0) && value > 0.0)
             curve.points.push_back({cost, value});
     }
@@ -100,8 +102,9 @@ void write_history_plots(const std::filesystem::path& folder, const Study& study
         plot.marks = 12;
         plot.linear_x = wanted.against_iterations;
         for (const auto& row : rows)
-            if (const auto solver = solver_of(folder, row)) {
-                auto curve = history_curve(name_of(row.run, rows), solver->history, wanted);
+            if (const auto report = report_of(folder, row)) {
+                auto curve = history_curve(name_of(row.run, rows), report->solver.history,
+                                           report->solved_elements, wanted);
                 if (!curve.points.empty()) plot.curves.push_back(std::move(curve));
             }
         mesh::write_file(folder / "plots" / wanted.file, svg_of(plot));
@@ -116,8 +119,9 @@ std::string solvers_section(const std::filesystem::path& folder,
         "| run | solver | passes | shots | CPU s | residual | unshot W | converged |\n"
         "|---|---|---|---|---|---|---|---|\n";
     for (const auto& row : rows) {
-        const auto solver = solver_of(folder, row);
-        if (!solver) continue;
+        const auto report = report_of(folder, row);
+        if (!report) continue;
+        const auto* solver = &report->solver;
         double seconds = 0.0;  // bands follow each other, and each begins at 0
         for (std::size_t k = 0; k < solver->history.size(); ++k)
             if (k + 1 == solver->history.size() ||

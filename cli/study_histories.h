@@ -25,9 +25,10 @@ struct HistoryPlot {
 const std::vector<HistoryPlot>& history_plots();
 
 // Purpose: the curve of one history: of the band that took most iterations; steps without time, or
-//   with nothing left, have no place on a logarithmic axis.
+//   with nothing left, have no place on a logarithmic axis. Shots are passes by their share of
+//   `elements`.
 Curve history_curve(const std::string& name, const std::vector<radiosity::SolverStep>& history,
-                    const HistoryPlot& plot);
+                    std::size_t elements, const HistoryPlot& plot);
 
 // Writes the plots, from the reports in FOLDER/runs/.
 void write_history_plots(const std::filesystem::path& folder, const Study& study,

@@ -120,7 +120,8 @@ double CoarseSolution::reciprocity_error(std::size_t band) const {
 }
 
 SolverResult CoarseSolution::solve_band(std::size_t band, std::span<const double> source,
-                                        double tolerance) const {
+                                        const NamedSolver& solver,
+                                        const SolverOptions& options) const {
     LinearProblem problem{elements_, areas(band), band, source};
     if (on_the_fly()) {
         problem.rows = [this, band](std::span<const ElementId> rows, const RowSink& sink) {
@@ -128,17 +129,12 @@ SolverResult CoarseSolution::solve_band(std::size_t band, std::span<const double
         };
         problem.outside = outside_[matrix_[band]];
     }
+    SolverOptions chosen = options;
     // On kept rows a solver is done before a stop is worth what it costs the solution.
-    const ProgressCallback progress = [this](const Progress& now) {
+    chosen.progress = [this](const Progress& now) {
         return radiosity::report(progress_, now) || !on_the_fly();
     };
-    return solver_named(options_.solver)
-        .solver(problem, {.tolerance = tolerance,
-                          .iterations = options_.solver_iterations,
-                          .over_relaxation = options_.over_relaxation,
-                          .overshooting = options_.overshooting,
-                          .ambient = options_.ambient,
-                          .progress = progress});
+    return solver.solver(problem, chosen);
 }
 
 // The worst of bands.
@@ -232,7 +228,12 @@ bool CoarseSolution::add_band(std::size_t b, const std::vector<double>& incident
         source[i] = elements_.emission[i * bands + b] - split_emission(i, b) +
                     elements_.scatter[i * bands + b] * (sent + arrived[i] + from_outside[i]);
     }
-    const SolverResult result = solve_band(b, source, options_.solver_tolerance);
+    const SolverResult result = solve_band(b, source, solver_named(options_.solver),
+                                           {.tolerance = options_.solver_tolerance,
+                                            .iterations = options_.solver_iterations,
+                                            .over_relaxation = options_.over_relaxation,
+                                            .overshooting = options_.overshooting,
+                                            .ambient = options_.ambient});
     add_to_report(result, solved.report);
     for (std::size_t i = 0; i < n; ++i) {
         const double capacity = elements_.capacity[i * bands + b];
@@ -252,8 +253,17 @@ std::vector<double> CoarseSolution::carried(const std::vector<double>& departure
     for (std::size_t b = 0; b < bands; ++b) {
         for (std::size_t i = 0; i < n; ++i)
             source[i] = elements_.scatter[i * bands + b] * departure[i * bands + b];
-        // An error of the error of 1 % is enough.
-        const SolverResult solved = solve_band(b, source, 0.01);
+        // An error of the error of 1 % is enough. By GMRES, whatever solves for the light: the same
+        // residual of another solver may be another error.
+        const SolverResult solved =
+            on_the_fly()
+                ? solve_band(b, source, solver_named(options_.solver),
+                             {.tolerance = 0.01,
+                              .iterations = options_.solver_iterations,
+                              .overshooting = options_.overshooting,
+                              .ambient = true})
+                : solve_band(b, source, solver_named("gmres"),
+                             {.tolerance = 0.01, .iterations = options_.solver_iterations});
         for (std::size_t i = 0; i < n; ++i)
             if (const double c = elements_.capacity[i * bands + b]; c > 0.0)
                 result[i * bands + b] = solved.received[i] / c;

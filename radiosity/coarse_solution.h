@@ -8,6 +8,8 @@
 
 namespace tyndall::radiosity {
 
+struct NamedSolver;
+
 class CoarseSolution {
   public:
     // The elements are the forest's leaves now; rows are made here, once a distinct extinction.
@@ -72,7 +74,7 @@ class CoarseSolution {
     void make_rows(std::size_t band, std::span<const ElementId> rows, const RowSink& sink) const;
     void find_outside(std::size_t band);
     SolverResult solve_band(std::size_t band, std::span<const double> source,
-                            double tolerance) const;
+                            const NamedSolver& solver, const SolverOptions& options) const;
     static void add_to_report(const SolverResult& result, SolverReport& report);
     bool add_band(std::size_t band, const std::vector<double>& incident_direct,
                   const std::vector<double>& incident_lit, Solved& solved) const;

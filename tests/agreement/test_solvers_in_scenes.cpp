@@ -8,6 +8,7 @@
 #include "radiosity/coarse_solution.h"
 #include "radiosity/point_set.h"
 #include "radiosity/solvers.h"
+#include "radiosity/start_elements.h"
 #include "support/catch.h"
 
 using namespace tyndall;
@@ -40,7 +41,11 @@ struct Solved {
 };
 
 Solved solved(const Enclosure& enclosure, const Forest& forest, const SolveOptions& options) {
-    CoarseSolution coarse(enclosure, forest, options, {});
+    // On the base mesh; where that is large (columns with 8600 elements) on one zone a medium.
+    constexpr std::size_t most = 3000;
+    Elements elements = elements_of_leaves(enclosure, forest);
+    if (elements.size() > most) elements = start_elements(enclosure, forest, Start::single_zone);
+    CoarseSolution coarse(enclosure, forest, std::move(elements), options, {});
     coarse.solve(some_light(coarse.elements()));
     Solved result{{}, {}, coarse.report(), coarse.reciprocity_error(0)};
     const Elements& e = coarse.elements();

@@ -190,13 +190,17 @@ TEST_CASE("Solver histories are curves of the slowest band, drawn on a linear ax
     }
     REQUIRE(passes);
     REQUIRE(seconds);
-    const Curve curve = history_curve("jacobi", history, *passes);
+    const Curve curve = history_curve("jacobi", history, 100, *passes);
     REQUIRE(curve.points.size() == 51);
     CHECK(curve.points[0].cost == 0.0);
     CHECK(curve.points[50].error == std::pow(0.5, 50.0));
     // There is no 0 on a logarithmic axis of seconds.
-    CHECK(history_curve("jacobi", history, *seconds).points.size() == 50);
-    CHECK(history_curve("none", {}, *passes).points.empty());
+    CHECK(history_curve("jacobi", history, 100, *seconds).points.size() == 50);
+    CHECK(history_curve("none", {}, 100, *passes).points.empty());
+
+    radiosity::SolverStep shot;
+    shot.iterations = 1, shot.shots = 25;
+    CHECK(history_curve("shots", {shot}, 100, *passes).points.at(0).cost == 0.25);
 
     Plot plot{"solvers", "passes", "residual [-]", {curve}, {}};
     plot.times = 1.0, plot.slopes = false, plot.marks = 12, plot.linear_x = true;
