@@ -5,8 +5,11 @@
 
 #include "cli/scene_file.h"
 #include "mesh/forest.h"
+#include "mesh/shapes.h"
+#include "radiosity/adaptive.h"
 #include "radiosity/coarse_solution.h"
 #include "radiosity/point_set.h"
+#include "radiosity/scene_builder.h"
 #include "radiosity/solvers.h"
 #include "radiosity/start_elements.h"
 #include "support/catch.h"
@@ -114,4 +117,28 @@ TEST_CASE("Shots on the fly agree within what rows are reciprocal to, in every e
     // The tolerance's 1 % may be a few in the solution. What S_ij and S_ji differ by enters once
     // for every bounce, and has either sign: in the mean it is less than once in all.
     CHECK(difference(shot.indirect, kept.indirect) < kept.reciprocity_error + 0.03);
+}
+
+TEST_CASE("Where nothing absorbs a source is refused, and without one all is dark", "[solvers]") {
+    const auto room = [](double emission) {
+        Scene scene;
+        add_surface(scene, "room", mesh::room({0, 0, 0}, {2, 2, 2}),
+                    {.reflectance = {1.0}, .emission = {emission}});
+        scene.media = {{.name = "fog", .extinction = {0.5}, .albedo = {1.0}}};
+        return scene;
+    };
+    CHECK_THROWS_WITH(make_enclosure(room(1.0)), Contains("grows for ever"));
+    const auto dark = std::make_shared<const Enclosure>(make_enclosure(room(0.0)));
+    for (const auto& named : solvers()) {
+        CAPTURE(named.name);
+        const Solution solution = solve_adaptively(dark, {.solver = std::string(named.name),
+                                                          .refinement = Refinement::none,
+                                                          .rays = 16,
+                                                          .gather_rays = 4});
+        CHECK(solution.report.solver.converged);
+        CHECK(solution.report.solver.iterations == 0);
+        CHECK(solution.report.energy_balance == 0.0);
+        for (const double x : solution.coarse.radiance) CHECK(x == 0.0);
+        for (const double h : solution.coarse.incident) CHECK(h == 0.0);
+    }
 }
