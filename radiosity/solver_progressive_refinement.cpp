@@ -85,6 +85,7 @@ class Shooting {
                 const double left = measured();
                 if (left <= options_.tolerance * history_.source_norm()) break;
                 goal *= 0.5 * options_.tolerance * history_.source_norm() / left;
+                if (goal < 1e-16 * history_.source_norm()) break;  // beyond what doubles tell
                 continue;
             }
             const auto shooters = next_shooters();
