@@ -29,7 +29,11 @@ CoarseSolution::CoarseSolution(const Enclosure& enclosure, const Forest& forest,
 
 CoarseSolution::CoarseSolution(const Enclosure& enclosure, const Forest& forest, Elements elements,
                                const SolveOptions& options, const ProgressCallback& progress)
-    : enclosure_(enclosure), forest_(forest), options_(options), elements_(std::move(elements)) {
+    : enclosure_(enclosure),
+      forest_(forest),
+      options_(options),
+      elements_(std::move(elements)),
+      settled_(enclosure, forest, elements_) {
     const NamedExchangeMethod& method = exchange_method(options.exchange);
     require_settings(method, options.exchange_settings);
     for (std::size_t band = 0; band < enclosure.bands; ++band) {
@@ -83,9 +87,11 @@ std::size_t CoarseSolution::memory() const {
 }
 
 double CoarseSolution::split_emission(std::size_t element, std::size_t band) const {
-    const bool split =
-        elements_.is_patch(element) && options_.direct_light == DirectLightMode::closed_form;
-    return split ? elements_.emission[element * elements_.bands + band] : 0.0;
+    if (!elements_.is_patch(element) || options_.direct_light != DirectLightMode::closed_form)
+        return 0.0;
+    const auto side = side_of(enclosure_, forest_, elements_.patches[element]);
+    return shines(enclosure_.sides[side]) ? elements_.emission[element * elements_.bands + band]
+                                          : 0.0;
 }
 
 // The factor that makes what arrives from lit patches as much as they send to elements, which their
@@ -105,6 +111,23 @@ double CoarseSolution::lit_scale(const std::vector<double>& incident_direct,
 
 void CoarseSolution::solve(const std::vector<double>& incident_direct,
                            const std::vector<double>& incident_lit) {
+    if (settled_.empty()) return solve_bands(incident_direct, incident_lit);
+    const auto incident = [&] {
+        solve_bands(incident_direct, incident_lit);
+        std::vector<double> result = incident_direct;
+        for (std::size_t k = 0; k < result.size(); ++k) result[k] += indirect_[k];
+        return result;
+    };
+    // What a band's solve leaves is no less than its own tolerance.
+    const SettleResult settled =
+        settled_.settle(incident, {3.0 * options_.solver_tolerance, options_.solver_iterations});
+    report_.residual = std::max(report_.residual, settled.residual);
+    report_.converged = report_.converged && settled.converged;
+    report_.iterations = std::max(report_.iterations, settled.iterations);
+}
+
+void CoarseSolution::solve_bands(const std::vector<double>& incident_direct,
+                                 const std::vector<double>& incident_lit) {
     const bool apart = !incident_lit.empty();
     const std::size_t bands = elements_.bands, n = elements_.size();
     indirect_.assign(n * bands, 0.0);
@@ -123,7 +146,7 @@ void CoarseSolution::solve(const std::vector<double>& incident_direct,
             const double sent =
                 apart && elements_.is_patch(i) ? 0.0 : incident_direct[i * bands + b];
             if (apart) arrived[i] = scale * incident_lit[i * bands + b];
-            source[i] = elements_.emission[i * bands + b] - split_emission(i, b) +
+            source[i] = emission(i, b) - split_emission(i, b) +
                         elements_.scatter[i * bands + b] * (sent + arrived[i] + from_outside[i]);
         }
         const LinearProblem problem{elements_, rows, b, source};
@@ -170,6 +193,7 @@ ElementValues CoarseSolution::values(const std::vector<double>& incident_direct)
     for (std::size_t i = 0; i < elements_.size(); ++i)
         for (std::size_t b = 0; b < elements_.bands; ++b) {
             const std::size_t k = i * elements_.bands + b;
+            values.elements.emission[k] = emission(i, b);
             values.radiance.push_back(reflected_[k] + split_emission(i, b));
             values.incident.push_back(incident_direct[k] + indirect_[k]);
         }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "radiosity/options.h"
+#include "radiosity/settled_emission.h"
 #include "radiosity/solution.h"
 #include "radiosity/solver.h"
 
@@ -25,9 +26,10 @@ class CoarseSolution {
     std::size_t memory() const;
 
     // Solves for r given H^A of every element ([element * bands + band]):
-    //   r = e^R + a (H^A + S r / c).  e^R leaves out what direct light counts in closed form.
-    // With `incident_lit`, H from what patches reflect of direct light, r leaves that out of what
-    // is sent through the rows: it has arrived already.
+    //   r = e^R + a (H^A + S r / c),
+    // and for the emission of elements that settle (40), if there are any.  e^R leaves out what
+    // direct light counts in closed form. With `incident_lit`, H from what patches reflect of
+    // direct light, r leaves that out of what is sent through the rows: it has arrived already.
     void solve(const std::vector<double>& incident_direct,
                const std::vector<double>& incident_lit = {});
 
@@ -36,6 +38,13 @@ class CoarseSolution {
     //   δx = a (departure + S δx / c),  δH = S δx / c:                               (29)
     // the departure sent through the rows, once and again.
     std::vector<double> carried(const std::vector<double>& departure) const;
+
+    // e of an element: its own, or what it settles to (settled_emission.h) [W/m^2/sr].
+    double emission(std::size_t element, std::size_t band) const {
+        return elements_.emission[element * elements_.bands + band] +
+               settled_.emission(element, band);
+    }
+    const SettledEmission& settled() const { return settled_; }
 
     const SolverReport& report() const { return report_; }
     // S r / c with outside: the indirect part of H, and r itself [W/m^2/sr].
@@ -48,12 +57,14 @@ class CoarseSolution {
     double reflected(std::size_t element, std::size_t band) const {
         return reflected_[element * elements_.bands + band];
     }
-    // e^A: emission counted in closed form; 0 else.
+    // e^A: emission counted in closed form, of sides that shine; 0 else.
     double split_emission(std::size_t element, std::size_t band) const;
 
     ElementValues values(const std::vector<double>& incident_direct) const;
 
   private:
+    void solve_bands(const std::vector<double>& incident_direct,
+                     const std::vector<double>& incident_lit);
     double lit_scale(const std::vector<double>& incident_direct,
                      const std::vector<double>& incident_lit, std::size_t band) const;
 
@@ -61,6 +72,7 @@ class CoarseSolution {
     const Forest& forest_;
     SolveOptions options_;
     Elements elements_;
+    SettledEmission settled_;
     std::vector<ExchangeAreas> areas_;
     std::vector<std::size_t> matrix_;  // which of areas_ a band uses
     std::vector<double> indirect_, reflected_;

@@ -87,6 +87,8 @@ Report solve_report(const Enclosure& enclosure, const CoarseSolution& coarse,
     }
     const Balance power = balance(enclosure, coarse, incident_direct, light, ending.escaped_direct);
     report.net_power = power.net_power;
+    report.net_flux = power.net_flux;
+    report.flux_divergence = power.flux_divergence;
     report.energy_balance = power.energy_balance;
     report.direct_power_check = ending.direct_power_check;
     report.warnings = enclosure.warnings;
