@@ -76,8 +76,8 @@ TEST_CASE("Crosbie & Schrenker's square: source function on the centre line", "[
                                         .2082, .1728, .1422, .1147, .0862};
     std::vector<double> across, along;
     for (int k = 0; k <= 8; ++k) across.push_back(k / 8.0);
-    for (int k = -9; k <= 9; ++k) along.push_back(0.6 * k);
     const auto env = [](const char* k, double v) { return std::getenv(k) ? std::atof(std::getenv(k)) : v; };
+    for (int k = -int(env("NY", 9)); k <= int(env("NY", 9)); ++k) along.push_back(env("DY", 0.6) * k);
     const Solution s = solve(test::heated_box({across, along, test::thin_at_ends(10)},
                                               {.reflectance_x = 0.0}),
                              std::size_t(env("RAYS", 512)));
@@ -85,9 +85,9 @@ TEST_CASE("Crosbie & Schrenker's square: source function on the centre line", "[
     constexpr int places = 12;
     std::vector<double> found(source.size());
     for (int j = 0; j < places; ++j) {
-        const Probe probe(s, {.rays = 4096, .seed = std::uint64_t(j) + 1});
+        const Probe probe(s, {.rays = std::size_t(env("PRAYS", 4096)), .seed = std::uint64_t(j) + 1});
         for (std::size_t k = 0; k < source.size(); ++k)
-            found[k] += probe.in_space({0.5, 0.5 * (j - 5.5), 0.1 * double(k)}).source[0] / places;
+            found[k] += probe.in_space({0.5, env("SP", 0.5) * (j - 5.5), 0.1 * double(k)}).source[0] / places;
     }
     for (std::size_t k = 0; k < source.size(); ++k) {
         WARN("z = " << 0.1 * double(k) << ": " << found[k] << " for " << source[k] << ", "
