@@ -43,10 +43,8 @@ Scene cube(const Material& walls, const Material& floor) {
     return scene;
 }
 
-const SolveOptions quick{.refinement = Refinement::none,
-                         .rays = 64,
-                         .gather_rays = 64,
-                         .solver_tolerance = 1e-9};
+const SolveOptions quick{
+    .refinement = Refinement::none, .rays = 64, .gather_rays = 64, .solver_tolerance = 1e-9};
 
 // Nothing is sampled but rows, which close: what is 1 everywhere is so exactly.
 SolveOptions in_rows() {
@@ -128,7 +126,8 @@ TEST_CASE("A thin heated medium is as hot as its own heat says", "[heat]") {
 
 TEST_CASE("A radiation shield halves the flux", "[heat]") {
     // An adiabatic sheet across a black box, one half at T1, the other at T2: with black walls both
-    // sides of it see one temperature each, and none lets anything through: the sides are two walls.
+    // sides of it see one temperature each, and none lets anything through: the sides are two
+    // walls.
     Scene scene = cube(hot(0.0, 900.0), hot(0.0, 900.0));
     scene.materials.push_back(with_flux(0.4, 0.0));
     test::add_surfaces(scene, "sheet", mesh::rectangle({0, 0, 0.5}, {1, 0, 0}, {0, 1, 0}), 2);
@@ -178,8 +177,8 @@ TEST_CASE("A selective wall of given flux in several bands", "[heat]") {
 }
 
 TEST_CASE("Bands that are all alike settle as one grey band does", "[heat]") {
-    // Hot and cold black faces, grey adiabatic walls, a grey medium in equilibrium: in three bands of
-    // the same properties the sums over bands obey the grey equation.
+    // Hot and cold black faces, grey adiabatic walls, a grey medium in equilibrium: in three bands
+    // of the same properties the sums over bands obey the grey equation.
     const auto scene = [](std::size_t bands) {
         Scene result;
         result.bands = bands;

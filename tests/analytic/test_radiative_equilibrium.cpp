@@ -49,8 +49,8 @@ double flux(const Solution& s, double half, bool floor) {
 TEST_CASE("Heaslet & Warming's slab: flux to 0.1 %", "[heat]") {
     const auto file = test::reference("4abc_slab");
     for (const std::string thickness : {"0.1", "1", "2", "5"}) {
-        // The side walls are white. What they change is seen from within `half` under a small angle,
-        // or through many mean free paths: 30 m in the thinnest slab, 8 m in the thickest.
+        // The side walls are white. What they change is seen from within `half` under a small
+        // angle, or through many mean free paths: 30 m in the thinnest slab, 8 m in the thickest.
         const double extinction = std::stod(thickness);
         const double half = std::max(8.0, 10.0 / std::sqrt(extinction));
         const auto across = test::graded(half, 1.5, 1.3);
@@ -62,9 +62,6 @@ TEST_CASE("Heaslet & Warming's slab: flux to 0.1 %", "[heat]") {
         INFO("optical thickness " << thickness << ": " << into_cold / expected - 1.0 << " and "
                                   << out_of_hot / expected - 1.0 << " off, " << s.report.zones
                                   << " zones");
-        WARN("optical thickness " << thickness << ": " << into_cold / expected - 1.0 << " and "
-                                  << out_of_hot / expected - 1.0 << " off, " << s.report.zones
-                                  << " zones");
         CHECK(into_cold == Approx(expected).epsilon(1e-3));
         CHECK(out_of_hot == Approx(expected).epsilon(1e-3));
     }
@@ -74,23 +71,23 @@ TEST_CASE("Crosbie & Schrenker's square: source function on the centre line", "[
     // Optical side 1, bottom hot, all black, two-dimensional: a long box with white ends.
     const std::array<double, 11> source{.6295, .5190, .4329, .3605, .3001, .2500,
                                         .2082, .1728, .1422, .1147, .0862};
-    std::vector<double> across, along;
-    for (int k = 0; k <= 8; ++k) across.push_back(k / 8.0);
-    const auto env = [](const char* k, double v) { return std::getenv(k) ? std::atof(std::getenv(k)) : v; };
-    for (int k = -int(env("NY", 9)); k <= int(env("NY", 9)); ++k) along.push_back(env("DY", 0.6) * k);
-    const Solution s = solve(test::heated_box({across, along, test::thin_at_ends(10)},
-                                              {.reflectance_x = 0.0}),
-                             std::size_t(env("RAYS", 512)));
+    // Cells as fine along the box as across where it matters: long ones were 1 % off at the cold
+    // end.
+    const std::vector<double> across = test::thin_at_ends(10);
+    std::vector<double> along;
+    for (int k = -12; k <= 12; ++k) along.push_back(0.3 * k);
+    const Solution s =
+        solve(test::heated_box({across, along, across}, {.reflectance_x = 0.0}), 256);
     // Means over cells along the box and over directions, each with a noise of its own.
     constexpr int places = 12;
     std::vector<double> found(source.size());
     for (int j = 0; j < places; ++j) {
-        const Probe probe(s, {.rays = std::size_t(env("PRAYS", 4096)), .seed = std::uint64_t(j) + 1});
+        const Probe probe(s, {.rays = 4096, .seed = std::uint64_t(j) + 1});
         for (std::size_t k = 0; k < source.size(); ++k)
-            found[k] += probe.in_space({0.5, env("SP", 0.5) * (j - 5.5), 0.1 * double(k)}).source[0] / places;
+            found[k] += probe.in_space({0.5, 0.2 * (j - 5.5), 0.1 * double(k)}).source[0] / places;
     }
     for (std::size_t k = 0; k < source.size(); ++k) {
-        WARN("z = " << 0.1 * double(k) << ": " << found[k] << " for " << source[k] << ", "
+        INFO("z = " << 0.1 * double(k) << ": " << found[k] << " for " << source[k] << ", "
                     << found[k] / source[k] - 1.0);
         CHECK(found[k] == Approx(source[k]).epsilon(5e-3));
     }

@@ -57,11 +57,16 @@ TEST_CASE("Planck's fraction: values by quadrature of 25 digits", "[heat]") {
 }
 
 TEST_CASE("Planck's fraction: the tables of textbooks", "[heat]") {
-    // Incropera & DeWitt, Fundamentals of Heat and Mass Transfer, table 12.1. Its last digits are of
-    // older constants of nature: they agree to 5e-5.
-    for (const auto& [micrometre_kelvin, fraction] :
-         {std::pair{1000.0, 0.000321}, {2000.0, 0.066728}, {3000.0, 0.273232}, {4000.0, 0.480877},
-          {5000.0, 0.633747}, {6000.0, 0.737818}, {8000.0, 0.856288}, {10000.0, 0.914199}})
+    // Incropera & DeWitt, Fundamentals of Heat and Mass Transfer, table 12.1. Its last digits are
+    // of older constants of nature: they agree to 5e-5.
+    for (const auto& [micrometre_kelvin, fraction] : {std::pair{1000.0, 0.000321},
+                                                      {2000.0, 0.066728},
+                                                      {3000.0, 0.273232},
+                                                      {4000.0, 0.480877},
+                                                      {5000.0, 0.633747},
+                                                      {6000.0, 0.737818},
+                                                      {8000.0, 0.856288},
+                                                      {10000.0, 0.914199}})
         CHECK(planck_fraction(1e-6 * micrometre_kelvin) == Approx(fraction).margin(5e-5));
 }
 
@@ -112,5 +117,6 @@ TEST_CASE("A temperature is found from what it emits", "[heat]") {
     CHECK(std::isnan(temperature_of(edges, std::vector{0.5, 0.5, 0.5}, -1.0)));
     CHECK(std::isnan(temperature_of({}, std::vector{0.0}, 1.0)));
     // 1000 K: sigma T^4 = 56703.74 W/m^2.
-    CHECK(temperature_of({}, std::vector{1.0}, 56703.74419 / M_PI) == Approx(1000.0).epsilon(1e-12));
+    CHECK(temperature_of({}, std::vector{1.0}, 56703.74419 / M_PI) ==
+          Approx(1000.0).epsilon(1e-12));
 }
