@@ -5,14 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <glm/geometric.hpp>
-#include <iterator>
 #include <numbers>
 
 #include "cli/overrides.h"
 #include "cli/scene_keys.h"
 #include "cli/scene_optics.h"
+#include "cli/scene_spectrum.h"
 #include "cli/scene_surfaces.h"
 #include "cli/settings.h"
 #include "cli/toml_text.h"
@@ -20,32 +19,6 @@
 
 namespace tyndall::cli {
 namespace {
-
-std::string read_text(const std::filesystem::path& path) {
-    const std::string name = path.string();
-    std::error_code error;
-    const auto status = std::filesystem::status(path, error);
-    if (status.type() == std::filesystem::file_type::not_found) {
-        fail_at(name, "there is no such file. Correct the path of the scene.");
-    }
-    if (std::filesystem::is_directory(status)) {
-        fail_at(name, "this is a directory. Give a scene file in it.");
-    }
-    std::ifstream stream(path, std::ios::binary);
-    std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-    if (!stream.is_open() || stream.bad()) fail_at(name, "cannot be read. Check its permissions.");
-    return text;
-}
-
-toml::table parse(const std::filesystem::path& path) {
-    const std::string text = read_text(path);
-    try {
-        return toml::parse(text, path.string());
-    } catch (const toml::parse_error& error) {
-        fail_at(place_of(error.source()),
-                fmt::format("this is not valid TOML: {}. Correct it.", error.description()));
-    }
-}
 
 void check_format(const TableReader& root) {
     if (!root.has("format")) {
@@ -142,7 +115,7 @@ bool emits_light(const radiosity::Scene& scene) {
     };
     if (!scene.lights.empty() || some(scene.environment)) return true;
     for (const auto& material : scene.materials) {
-        if (some(material.emission) || some(material.power)) return true;
+        if (some(material.emission) || some(material.power) || some(material.flux)) return true;
     }
     for (const auto& medium : scene.media) {
         if (some(medium.emission) || some(medium.heat)) return true;
@@ -154,19 +127,19 @@ bool emits_light(const radiosity::Scene& scene) {
 
 SceneFile read_scene_file(const std::filesystem::path& path,
                           const std::vector<std::string>& overrides) {
-    toml::table table = parse(path);
+    toml::table table = parse_toml_file(path, "scene");
     for (const std::string& override : overrides) apply_override(table, override);
 
     const TableReader root(table, keys::root(), "the scene");
     check_format(root);
     SceneFile file;
     if (root.has("title")) file.scene.title = root.text("title");
-    if (root.has("bands")) file.scene.bands = root.count("bands", 1, 64);
+    read_spectrum(root, path.parent_path(), file.scene);
 
     Names materials("material"), cameras("camera");
-    read_materials(root, materials, file.scene);
+    read_materials(root, materials, file.scene, file.notes);
     read_surfaces(root, path.parent_path(), materials, file.scene, file.notes);
-    read_media(root, file.scene);
+    read_media(root, file.scene, file.notes);
     read_lights(root, file.scene);
     read_environment(root, file.scene);
     read_cameras(root, cameras, file);
@@ -211,10 +184,11 @@ ViewSettings read_view_settings(const std::string& toml,
 std::string scene_file_reference() {
     std::string text;
     for (const KeyTable* table :
-         {&keys::root(), &keys::material(), &keys::surface(), &keys::cuboid(), &keys::rectangle(),
-          &keys::face_opening(), &keys::opening(), &keys::rotate(), &keys::medium(), &keys::phase(),
-          &keys::light(), &keys::sun(), &keys::point(), &keys::spot(), &keys::environment(),
-          &keys::camera(), &solve_keys(), &render_keys()}) {
+         {&keys::root(),      &keys::material(),     &keys::surface(),     &keys::cuboid(),
+          &keys::rectangle(), &keys::face_opening(), &keys::opening(),     &keys::rotate(),
+          &keys::medium(),    &keys::phase(),        &keys::light(),       &keys::sun(),
+          &keys::point(),     &keys::spot(),         &keys::environment(), &keys::camera(),
+          &solve_keys(),      &render_keys(),        &keys::grey_gases(),  &keys::grey_gas()}) {
         text += fmt::format("### {}\n\n| key | value | default | meaning |\n|---|---|---|---|\n",
                             table->title);
         for (const Key& key : table->keys) {

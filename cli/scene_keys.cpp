@@ -10,6 +10,12 @@ const KeyTable& root() {
             {"title", "string", "\"\"", "shown in reports"},
             {"bands", "whole number, 1 to 64", "1",
              "values a spectrum has: 1 grey, 3 red, green, blue"},
+            {"band_edges", "array of numbers [µm], the first may be 0, the last inf", "",
+             "wavelengths between which the bands lie, one more than bands: temperatures emit by "
+             "Planck's law"},
+            {"grey_gases", "path of a file", "",
+             "instead: the bands are a clear gas and the grey gases of this file, relative to the "
+             "scene file"},
             {"material", "array of tables", "", "what surfaces are made of"},
             {"surface", "array of tables", "required", "geometry"},
             {"medium", "array of tables", "", "fog, smoke, haze"},
@@ -31,10 +37,43 @@ const KeyTable& material() {
             {"emission", "number [W/m²/sr], or one a band", "", "radiance"},
             {"exitance", "number [W/m²], or one a band", "", "π × radiance"},
             {"power", "number [W], or one a band", "", "of the whole surface"},
-            {"temperature", "number [K]", "", "emits (1−ρ)σT⁴/π; one band only"},
-            {"emits", "\"front\" or \"both\"", "\"front\"; \"both\" with temperature",
+            {"temperature", "number [K]", "",
+             "emits (1−ρ)σT⁴/π; with several bands each one's share of it"},
+            {"flux", "number [W/m²], or one a band", "",
+             "net flux out of the wall, which takes the temperature for that; 0 is adiabatic, "
+             "below "
+             "0 a sink; with band_edges or grey_gases one number, of all bands together"},
+            {"emits", "\"front\" or \"both\"", "\"front\"; \"both\" with temperature or flux",
              "which sides emit"},
             {"back", "name of a material", "the same", "what the back side is made of"},
+        }};
+    return table;
+}
+
+const KeyTable& grey_gases() {
+    static const KeyTable table{
+        "file of grey gases",
+        {
+            {"format", "1", "required", "version of the file format"},
+            {"title", "string", "", "for readers"},
+            {"source", "string", "", "for readers: where the numbers come from"},
+            {"temperatures", "[lowest, highest] [K]", "required",
+             "between which the weights hold; beyond, those of the nearer are taken"},
+            {"pressure", "\"atm\", \"bar\" or \"Pa\"", "required", "unit in absorption"},
+            {"gas", "array of tables", "required",
+             "1 to 63; the clear gas, which takes the rest of the weights, is added as band 0"},
+        }};
+    return table;
+}
+
+const KeyTable& grey_gas() {
+    static const KeyTable table{
+        "gas of a file of grey gases",
+        {
+            {"absorption", "number [1/m per pressure]", "required",
+             "coefficient for a partial pressure of 1"},
+            {"weights", "array of numbers [1, 1/K, 1/K², …]", "required",
+             "b_0, b_1, …: the gas has the share Σ b_j T^j of a black body's power"},
         }};
     return table;
 }
@@ -121,13 +160,18 @@ const KeyTable& medium() {
         "[[medium]]",
         {
             {"name", "string", "required", ""},
-            {"extinction", "number [1/m], or one a band", "required", "absorption + scattering"},
+            {"extinction", "number [1/m], or one a band", "required; 0 with partial_pressure",
+             "absorption + scattering"},
             {"albedo", "number from 0 to 1, or one a band", "0", "scattering / extinction"},
             {"phase", "table", "isotropic", ""},
             {"emission", "number [W/m²/sr], or one a band", "", "J_e"},
-            {"temperature", "number [K]", "", "J_e = σT⁴/π; one band only"},
+            {"partial_pressure", "number [Pa]", "",
+             "of the absorbing gases of grey_gases: their absorption comes to extinction"},
+            {"temperature", "number [K]", "",
+             "J_e = σT⁴/π; with several bands each one's share of it"},
             {"heat", "number [W/m³], or one a band", "",
-             "a source instead; 0 is radiative equilibrium"},
+             "a source instead; 0 is radiative equilibrium; with band_edges or grey_gases one "
+             "number, of all bands together"},
             {"fills", "\"everywhere\"", "\"everywhere\" without at",
              "every region that is not solid"},
             {"at", "[x, y, z] [m]", "", "instead of fills: the region around this point"},

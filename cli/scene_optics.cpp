@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -15,30 +16,57 @@ namespace {
 using radiosity::Spectrum;
 using std::numbers::pi;
 
-constexpr double stefan_boltzmann = 5.670374419e-8;  // [W/m²/K⁴]
 constexpr Range kelvin{0.0, 1e6};
+constexpr Range signed_quantity{-1e30, 1e30};
 constexpr double degree = pi / 180.0;  // [rad]
 
 std::string named(std::string_view kind, const std::string& name) {
     return fmt::format("{} \"{}\"", kind, name);
 }
 
-// σT⁴/π [W/m²/sr], one band.
-double black_radiance(const TableReader& reader, std::size_t bands) {
-    if (bands != 1) {
-        reader.fail(
-            "temperature",
-            fmt::format("temperature of {} needs one band, the scene has {}. Give emission, one "
-                        "value a band.",
-                        reader.thing(), bands));
+// What a key of heat finds in the scene: its bands, and where to say what was mended.
+struct Heat {
+    radiosity::Scene& scene;
+    std::vector<std::string>& notes;
+};
+
+// The share of σT⁴/π in each band [W/m²/sr].
+Spectrum black_radiance(const TableReader& reader, const Heat& heat) {
+    const std::size_t bands = heat.scene.bands;
+    const radiosity::SpectralModel& model = heat.scene.spectral;
+    if (!model.thermal(bands)) {
+        reader.fail("temperature",
+                    fmt::format("temperature of {} needs to know what the {} bands are. Give the "
+                                "scene band_edges or grey_gases, or give emission, one value a "
+                                "band.",
+                                reader.thing(), bands));
     }
+    heat.scene.thermal = true;
     const double kelvins = reader.number("temperature", kelvin);
-    return stefan_boltzmann * std::pow(kelvins, 4) / pi;
+    const auto& grey = model.grey_gases;
+    if (!grey.gases.empty() && kelvins > 0.0 && (kelvins < grey.lowest || kelvins > grey.highest))
+        heat.notes.push_back(fmt::format(
+            "temperature {} K of {} is beyond {} to {} K, which the weights of '{}' are for: those "
+            "of the nearer end are taken",
+            kelvins, reader.thing(), grey.lowest, grey.highest, grey.name));
+    return radiosity::black_radiance(model, bands, kelvins);
 }
 
-void read_emission(const TableReader& reader, std::size_t bands, radiosity::Material& material) {
-    constexpr std::array<std::string_view, 4> sources{"emission", "exitance", "power",
-                                                      "temperature"};
+// A flux or a heat source: one value a band, or one for all bands that have wavelengths or weights.
+Spectrum read_total(const TableReader& reader, std::string_view key, const Range& range,
+                    const radiosity::Scene& scene) {
+    if (scene.bands == 1 || scene.spectral.empty()) return reader.spectrum(key, scene.bands, range);
+    if (reader.node(key).is_array())
+        reader.fail(key, fmt::format("{} of {} is that of all bands together, as the scene says "
+                                     "what they are. Give one number.",
+                                     key, reader.thing()));
+    return {reader.number(key, range)};
+}
+
+void read_emission(const TableReader& reader, const Heat& heat, radiosity::Material& material) {
+    const std::size_t bands = heat.scene.bands;
+    constexpr std::array<std::string_view, 5> sources{"emission", "exitance", "power",
+                                                      "temperature", "flux"};
     const auto source = reader.at_most_one(sources);
     if (source == "emission") {
         material.emission = reader.spectrum("emission", bands, quantity);
@@ -48,8 +76,12 @@ void read_emission(const TableReader& reader, std::size_t bands, radiosity::Mate
     } else if (source == "power") {
         material.power = reader.spectrum("power", bands, quantity);
     } else if (source == "temperature") {
-        const double radiance = black_radiance(reader, bands);
-        material.emission = {(1.0 - material.reflectance[0]) * radiance};
+        material.emission = black_radiance(reader, heat);
+        for (std::size_t b = 0; b < bands; ++b)
+            material.emission[b] *= 1.0 - material.reflectance[b];
+        material.emits = radiosity::EmittingSides::both;
+    } else if (source == "flux") {
+        material.flux = read_total(reader, "flux", signed_quantity, heat.scene);
         material.emits = radiosity::EmittingSides::both;
     }
     constexpr std::array<std::string_view, 2> sides{"front", "both"};
@@ -81,17 +113,41 @@ std::optional<double> read_phase(const TableReader& reader) {
         .number("henyey_greenstein", {-1.0, 1.0, true, true});
 }
 
-void read_medium_source(const TableReader& reader, std::size_t bands, radiosity::Medium& medium) {
+// Absorption of the gases beside that of what extinction speaks of: soot, droplets.
+void add_gases(const TableReader& reader, const radiosity::Scene& scene,
+               radiosity::Medium& medium) {
+    if (!reader.has("partial_pressure")) return;
+    const auto& gases = scene.spectral.grey_gases.gases;
+    if (gases.empty())
+        reader.fail(
+            "partial_pressure",
+            fmt::format("partial_pressure of {} needs the gases' absorption. Give the scene "
+                        "grey_gases = \"file.toml\", or give extinction.",
+                        reader.thing()));
+    const double pressure = reader.number("partial_pressure", quantity);
+    for (std::size_t b = 1; b < scene.bands; ++b) {
+        const double scattering = medium.extinction[b] * medium.albedo[b];
+        medium.extinction[b] += pressure * gases[b - 1].absorption;
+        if (medium.extinction[b] > 0.0) medium.albedo[b] = scattering / medium.extinction[b];
+    }
+}
+
+void read_medium_source(const TableReader& reader, const Heat& heat, radiosity::Medium& medium) {
+    const std::size_t bands = heat.scene.bands;
     constexpr std::array<std::string_view, 3> sources{"emission", "temperature", "heat"};
     const auto source = reader.at_most_one(sources);
     if (source == "emission") {
         medium.emission = reader.spectrum("emission", bands, quantity);
     } else if (source == "temperature") {
-        medium.emission = {black_radiance(reader, bands)};
+        medium.emission = black_radiance(reader, heat);
     } else if (source == "heat") {
-        medium.heat = reader.spectrum("heat", bands, quantity);
-        for (std::size_t band = 0; band < bands; ++band) {
-            if (medium.heat[band] > 0.0 && medium.extinction[band] == 0.0) {
+        medium.heat = read_total(reader, "heat", quantity, heat.scene);
+        for (std::size_t band = 0; band < medium.heat.size(); ++band) {
+            const auto& extinction = medium.extinction;
+            const double able = medium.heat.size() == bands
+                                    ? extinction[band]
+                                    : *std::max_element(extinction.begin(), extinction.end());
+            if (medium.heat[band] > 0.0 && able == 0.0) {
                 reader.fail("heat",
                             fmt::format("heat {} of {} has nothing to emit it: its extinction is "
                                         "0. Give an extinction above 0.",
@@ -151,7 +207,8 @@ glm::dvec3 read_direction(const TableReader& reader, std::string_view key) {
     return vector / length;
 }
 
-void read_materials(const TableReader& root, Names& names, radiosity::Scene& scene) {
+void read_materials(const TableReader& root, Names& names, radiosity::Scene& scene,
+                    std::vector<std::string>& notes) {
     const auto tables = root.tables("material");
     std::vector<TableReader> readers;
     for (const toml::table* table : tables) {
@@ -160,7 +217,13 @@ void read_materials(const TableReader& root, Names& names, radiosity::Scene& sce
         const TableReader reader(*table, keys::material(), named("material", material.name));
         material.where = reader.where();
         material.reflectance = reader.spectrum("reflectance", scene.bands, fraction);
-        read_emission(reader, scene.bands, material);
+        if (!scene.spectral.grey_gases.gases.empty() && reader.node("reflectance").is_array())
+            reader.fail(
+                "reflectance",
+                fmt::format("reflectance of {} is to hold for all wavelengths, as the bands "
+                            "are grey gases, which mix them. Give one number.",
+                            reader.thing()));
+        read_emission(reader, {scene, notes}, material);
         scene.materials.push_back(std::move(material));
         readers.push_back(reader);
     }
@@ -170,7 +233,7 @@ void read_materials(const TableReader& root, Names& names, radiosity::Scene& sce
     for (std::size_t i = 0; i < readers.size(); ++i) check_back(readers[i], scene.materials, i);
 }
 
-void read_media(const TableReader& root, radiosity::Scene& scene) {
+void read_media(const TableReader& root, radiosity::Scene& scene, std::vector<std::string>& notes) {
     Names names("medium");
     const toml::table* everywhere = nullptr;
     std::string name_of_everywhere;
@@ -179,11 +242,14 @@ void read_media(const TableReader& root, radiosity::Scene& scene) {
         medium.name = names.take(*table);
         const TableReader reader(*table, keys::medium(), named("medium", medium.name));
         medium.where = reader.where();
-        medium.extinction = reader.spectrum("extinction", scene.bands, quantity);
+        medium.extinction = reader.has("extinction") || !reader.has("partial_pressure")
+                                ? reader.spectrum("extinction", scene.bands, quantity)
+                                : Spectrum(scene.bands, 0.0);
         medium.albedo = reader.has("albedo") ? reader.spectrum("albedo", scene.bands, fraction)
                                              : Spectrum(scene.bands, 0.0);
         medium.asymmetry = read_phase(reader).value_or(0.0);
-        read_medium_source(reader, scene.bands, medium);
+        add_gases(reader, scene, medium);
+        read_medium_source(reader, {scene, notes}, medium);
 
         constexpr std::array<std::string_view, 2> places{"fills", "at"};
         const auto place = reader.at_most_one(places);

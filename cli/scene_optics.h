@@ -9,10 +9,12 @@ namespace tyndall::cli {
 
 // Each reads its part of the root table into the scene, whose `bands` is set. Units are converted
 // to those of radiosity/scene.h: exitance / π, temperature to (1−ρ)σT⁴/π (materials) or σT⁴/π
-// (media), degrees to radians; directions to unit length. All throw mesh::InputError with place and
-// name.
-void read_materials(const TableReader& root, Names& names, radiosity::Scene& scene);
-void read_media(const TableReader& root, radiosity::Scene& scene);
+// (media), each band's share of it by scene.spectral; partial pressures to extinction and albedo;
+// degrees to radians; directions to unit length. All throw mesh::InputError with place and name.
+// `notes`: temperatures beyond those that weights of grey gases are valid for.
+void read_materials(const TableReader& root, Names& names, radiosity::Scene& scene,
+                    std::vector<std::string>& notes);
+void read_media(const TableReader& root, radiosity::Scene& scene, std::vector<std::string>& notes);
 void read_lights(const TableReader& root, radiosity::Scene& scene);
 void read_environment(const TableReader& root, radiosity::Scene& scene);
 

@@ -4,14 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <sstream>
 #include <tuple>
 #include <vector>
 
+#include "cli/toml_reader.h"
+
 namespace tyndall::cli {
 namespace {
 
-std::string quoted(std::string_view text) {
+std::string quoted_text(std::string_view text) {
     std::string result = "\"";
     for (const char c : text) {
         const auto code = static_cast<unsigned char>(c);
@@ -32,7 +36,7 @@ std::string key_text(std::string_view key) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
                c == '_' || c == '-';
     });
-    return bare ? std::string(key) : quoted(key);
+    return bare ? std::string(key) : quoted_text(key);
 }
 
 std::string number_text(double value) {
@@ -78,7 +82,7 @@ std::string inline_text(const toml::node& node) {
         }
         return "[" + text + "]";
     }
-    if (const auto* value = node.as_string()) return quoted(value->get());
+    if (const auto* value = node.as_string()) return quoted_text(value->get());
     if (const auto* value = node.as_floating_point()) return number_text(value->get());
     std::ostringstream stream;  // integers, booleans, dates
     node.visit([&](const auto& value) {
@@ -122,7 +126,31 @@ void print(const toml::table& table, const std::string& path, std::string& text)
     }
 }
 
+std::string read_text(const std::filesystem::path& path, const std::string& thing) {
+    const std::string name = path.string();
+    std::error_code error;
+    const auto status = std::filesystem::status(path, error);
+    if (status.type() == std::filesystem::file_type::not_found)
+        fail_at(name, fmt::format("there is no such file. Correct the path of the {}.", thing));
+    if (std::filesystem::is_directory(status))
+        fail_at(name, fmt::format("this is a directory. Give a {} file in it.", thing));
+    std::ifstream stream(path, std::ios::binary);
+    std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+    if (!stream.is_open() || stream.bad()) fail_at(name, "cannot be read. Check its permissions.");
+    return text;
+}
+
 }  // namespace
+
+toml::table parse_toml_file(const std::filesystem::path& path, const std::string& thing) {
+    const std::string text = read_text(path, thing);
+    try {
+        return toml::parse(text, path.string());
+    } catch (const toml::parse_error& error) {
+        fail_at(place_of(error.source()),
+                fmt::format("this is not valid TOML: {}. Correct it.", error.description()));
+    }
+}
 
 std::string toml_text(const toml::table& root) {
     std::string text;

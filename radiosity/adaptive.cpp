@@ -18,6 +18,7 @@
 #include "radiosity/solve_report.h"
 #include "radiosity/solvers.h"
 #include "radiosity/start_elements.h"
+#include "radiosity/temperatures.h"
 #include "radiosity/thick_zones.h"
 
 namespace tyndall::radiosity {
@@ -137,6 +138,7 @@ class Loop {
                          {std::sqrt(squared_error_), solution.report.picture_error,
                           solution.report.solution_error, escaped_direct_, direct_power_check_,
                           view_.has_value(), stopped_, limited_, out_of_time_});
+        report_temperatures(solution);
         solution.report.patches = mesh_.patch_leaf_count();
         solution.report.zones = mesh_.zone_leaf_count();
         solution.report.passes = passes_;
@@ -155,7 +157,7 @@ class Loop {
         note(zones);
         direct_.update();
         direct_.sample_means();
-        leaf_light_.update_zones(indirect, sources.fields);
+        leaf_light_.update_zones(coarse, indirect, sources.fields);
         note(indirect.refine_patches(sources, importance,
                                      goal - std::min(zones.squared_error, 0.5 * goal), limits(1.0),
                                      progress_));
@@ -377,6 +379,7 @@ Solution Loop::collect(const CoarseSolution& coarse, Field&& indirect) {
         flatten(forest, solution.direct);
         flatten(forest, solution.indirect);
     }
+    if (!coarse.settled().empty()) solution.settled = leaf_light_.settled(coarse);
     solution.forest = forest;
     solution.coarse = coarse.values(incident_direct_);
     return solution;

@@ -185,6 +185,30 @@ double conserve_direct_power(const Enclosure& enclosure, const Elements& e,
     return all > 0.0 ? missing / all : 0.0;
 }
 
+namespace {
+
+double volume_of(const Elements& e, const Forest& forest, std::size_t element) {
+    double volume = 0.0;
+    for (const auto member : e.members_of(element)) volume += forest.volume(ZoneId(member));
+    return volume;
+}
+
+// Net power over the area of a side, the volume of a medium.
+void add_densities(const Enclosure& enclosure, const std::map<std::string, double>& measure,
+                   Balance& result) {
+    const auto over = [&](const std::string& name) {
+        Spectrum density = result.net_power.at(name);
+        for (double& value : density) value /= measure.at(name);
+        return density;
+    };
+    for (const SurfaceSide& side : enclosure.sides)
+        if (measure.contains(side.name)) result.net_flux[side.name] = over(side.name);
+    for (const MediumOptics& medium : enclosure.media)
+        if (measure.contains(medium.name)) result.flux_divergence[medium.name] = over(medium.name);
+}
+
+}  // namespace
+
 Balance balance(const Enclosure& enclosure, const CoarseSolution& coarse,
                 const std::vector<double>& incident_direct, const DirectLight& light,
                 const Spectrum& escaped) {
@@ -199,10 +223,13 @@ Balance balance(const Enclosure& enclosure, const CoarseSolution& coarse,
     const auto named = [&](const std::string& name) -> Spectrum& {
         return result.net_power.try_emplace(name, Spectrum(bands, 0.0)).first->second;
     };
+    std::map<std::string, double> measure;  // area of a side, volume of a medium
     for (std::size_t i = 0; i < e.size(); ++i) {
         const std::string& name =
             e.is_patch(i) ? enclosure.sides[side_of(enclosure, coarse.forest(), e.patches[i])].name
                           : enclosure.media[medium_of(enclosure, coarse.forest(), e.zone(i))].name;
+        measure[name] += e.is_patch(i) ? e.capacity[i * bands] : volume_of(e, coarse.forest(), i);
+        brought[0] += std::max(0.0, coarse.settled().heat(i));
         for (std::size_t b = 0; b < bands; ++b) {
             const std::size_t k = i * bands + b;
             const double c = e.capacity[k], r = coarse.reflected(i, b);
@@ -210,7 +237,7 @@ Balance balance(const Enclosure& enclosure, const CoarseSolution& coarse,
             const double power = pi * c * (r + coarse.split_emission(i, b) - incident);
             named(name)[b] += power;
             net[b] += power;
-            brought[b] += pi * c * e.emission[k];
+            brought[b] += pi * c * std::max(0.0, e.emission[k]);
             const double escaping = pi * coarse.to_outside(i, b);
             outside[b] += escaping * (r - enclosure.environment[b]);
             brought[b] += escaping * enclosure.environment[b];
@@ -221,6 +248,7 @@ Balance balance(const Enclosure& enclosure, const CoarseSolution& coarse,
         imbalance += net[b] + lights[b] - outside[b];
         total += brought[b] + lights[b];
     }
+    add_densities(enclosure, measure, result);
     named("outside") = outside;
     result.energy_balance = total > 0.0 ? imbalance / total : 0.0;
     return result;

@@ -8,6 +8,8 @@ namespace tyndall::radiosity {
 
 struct Balance {
     std::map<std::string, Spectrum> net_power;  // out of surface sides and media, into outside [W]
+    std::map<std::string, Spectrum> net_flux;   // the same over a side's area [W/m^2]
+    std::map<std::string, Spectrum> flux_divergence;  // over a medium's volume [W/m^3]
     double energy_balance = 0.0;  // (sent out − taken up − escaped) over what is brought in [-]
 };
 

@@ -36,7 +36,8 @@ CoarseSolution::CoarseSolution(const Enclosure& enclosure, const Forest& forest,
       forest_(forest),
       options_(options),
       progress_(progress),
-      elements_(std::move(elements)) {
+      elements_(std::move(elements)),
+      settled_(enclosure, forest, elements_) {
     const NamedExchangeMethod& method = exchange_method(options.exchange);
     require_settings(method, options.exchange_settings);
     check_solver(options);
@@ -178,9 +179,11 @@ std::size_t CoarseSolution::memory() const {
 }
 
 double CoarseSolution::split_emission(std::size_t element, std::size_t band) const {
-    const bool split =
-        elements_.is_patch(element) && options_.direct_light == DirectLightMode::closed_form;
-    return split ? elements_.emission[element * elements_.bands + band] : 0.0;
+    if (!elements_.is_patch(element) || options_.direct_light != DirectLightMode::closed_form)
+        return 0.0;
+    const auto side = side_of(enclosure_, forest_, elements_.patches[element]);
+    return shines(enclosure_.sides[side]) ? elements_.emission[element * elements_.bands + band]
+                                          : 0.0;
 }
 
 // The factor that makes what arrives from lit patches as much as they send to elements, which their
@@ -200,6 +203,24 @@ double CoarseSolution::lit_scale(const std::vector<double>& incident_direct,
 
 void CoarseSolution::solve(const std::vector<double>& incident_direct,
                            const std::vector<double>& incident_lit) {
+    if (settled_.empty()) return solve_bands(incident_direct, incident_lit);
+    const auto incident = [&] {
+        solve_bands(incident_direct, incident_lit);
+        std::vector<double> result = incident_direct;
+        for (std::size_t k = 0; k < result.size(); ++k) result[k] += solved_.indirect[k];
+        return result;
+    };
+    // What a band's solve leaves is no less than its own tolerance.
+    const SettleResult settled =
+        settled_.settle(incident, {3.0 * options_.solver_tolerance, options_.solver_iterations});
+    SolverReport& report = solved_.report;
+    report.residual = std::max(report.residual, settled.residual);
+    report.converged = report.converged && settled.converged;
+    report.iterations = std::max(report.iterations, settled.iterations);
+}
+
+void CoarseSolution::solve_bands(const std::vector<double>& incident_direct,
+                                 const std::vector<double>& incident_lit) {
     Solved solved;
     solved.indirect.assign(elements_.size() * elements_.bands, 0.0);
     solved.reflected.assign(elements_.size() * elements_.bands, 0.0);
@@ -225,7 +246,7 @@ bool CoarseSolution::add_band(std::size_t b, const std::vector<double>& incident
             from_outside[i] = to_outside(i, b) / capacity * enclosure_.environment[b];
         const double sent = apart && elements_.is_patch(i) ? 0.0 : incident_direct[i * bands + b];
         if (apart) arrived[i] = scale * incident_lit[i * bands + b];
-        source[i] = elements_.emission[i * bands + b] - split_emission(i, b) +
+        source[i] = emission(i, b) - split_emission(i, b) +
                     elements_.scatter[i * bands + b] * (sent + arrived[i] + from_outside[i]);
     }
     const SolverResult result = solve_band(b, source, solver_named(options_.solver),
@@ -278,6 +299,7 @@ ElementValues CoarseSolution::values(const std::vector<double>& incident_direct)
     for (std::size_t i = 0; i < elements_.size(); ++i)
         for (std::size_t b = 0; b < elements_.bands; ++b) {
             const std::size_t k = i * elements_.bands + b;
+            values.elements.emission[k] = emission(i, b);
             values.radiance.push_back(solved_.reflected[k] + split_emission(i, b));
             values.incident.push_back(incident_direct[k] + solved_.indirect[k]);
         }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "radiosity/options.h"
+#include "radiosity/settled_emission.h"
 #include "radiosity/solution.h"
 #include "radiosity/solver.h"
 
@@ -34,10 +35,11 @@ class CoarseSolution {
     std::size_t memory() const;
 
     // Solves for r given H^A of every element ([element * bands + band]):
-    //   r = e^R + a (H^A + S r / c).  e^R leaves out what direct light counts in closed form.
-    // On the fly a stop asked for leaves what there was before, or a first solution as far as it
-    // came. With `incident_lit`, H from what patches reflect of direct light, r leaves that out of
-    // what is sent through the rows: it has arrived already.
+    //   r = e^R + a (H^A + S r / c),
+    // and for the emission of elements that settle (44), if there are any. e^R leaves out what
+    // direct light counts in closed form. On the fly a stop asked for leaves what there was before,
+    // or a first solution as far as it came. With `incident_lit`, H from what patches reflect of
+    // direct light, r leaves that out of what is sent through the rows: it has arrived already.
     void solve(const std::vector<double>& incident_direct,
                const std::vector<double>& incident_lit = {});
 
@@ -46,6 +48,13 @@ class CoarseSolution {
     //   δx = a (departure + S δx / c),  δH = S δx / c:                               (29)
     // the departure sent through the rows, once and again.
     std::vector<double> carried(const std::vector<double>& departure) const;
+
+    // e of an element: its own, or what it settles to (settled_emission.h) [W/m^2/sr].
+    double emission(std::size_t element, std::size_t band) const {
+        return elements_.emission[element * elements_.bands + band] +
+               settled_.emission(element, band);
+    }
+    const SettledEmission& settled() const { return settled_; }
 
     const SolverReport& report() const { return solved_.report; }
     // S r / c with outside: the indirect part of H, and r itself [W/m^2/sr].
@@ -58,7 +67,7 @@ class CoarseSolution {
     double reflected(std::size_t element, std::size_t band) const {
         return solved_.reflected[element * elements_.bands + band];
     }
-    // e^A: emission counted in closed form; 0 else.
+    // e^A: emission counted in closed form, of sides that shine; 0 else.
     double split_emission(std::size_t element, std::size_t band) const;
 
     ElementValues values(const std::vector<double>& incident_direct) const;
@@ -78,6 +87,8 @@ class CoarseSolution {
     static void add_to_report(const SolverResult& result, SolverReport& report);
     bool add_band(std::size_t band, const std::vector<double>& incident_direct,
                   const std::vector<double>& incident_lit, Solved& solved) const;
+    void solve_bands(const std::vector<double>& incident_direct,
+                     const std::vector<double>& incident_lit);
     double lit_scale(const std::vector<double>& incident_direct,
                      const std::vector<double>& incident_lit, std::size_t band) const;
 
@@ -87,6 +98,7 @@ class CoarseSolution {
     SolveOptions options_;
     ProgressCallback progress_;
     Elements elements_;
+    SettledEmission settled_;
     std::vector<ExchangeAreas> areas_;
     std::vector<std::size_t> matrix_;  // which of areas_ a band uses
     // On the fly, of each of areas_: S_i,out of every element, nothing if the scene is closed.

@@ -166,7 +166,7 @@ void DirectLight::Data::add_emitters() {
         for (int k = 0; k < 2; ++k) {
             const auto side = enclosure.facet_sides[f][k];
             const auto& facet = enclosure.mesh.facets[f];
-            if (side == none || !shines(enclosure.sides[side].emission)) continue;
+            if (side == none || !shines(enclosure.sides[side])) continue;
             if (!facet.tets[k].valid() || enclosure.solid(facet.tets[k])) continue;
             auto corners = facet.corners;
             if (k == 1) std::swap(corners[1], corners[2]);

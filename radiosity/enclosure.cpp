@@ -7,10 +7,10 @@
 #include <glm/geometric.hpp>
 #include <map>
 #include <numbers>
-#include <numeric>
 
 #include "mesh/input_error.h"
 #include "radiosity/own_tetrahedra.h"
+#include "radiosity/steady_state.h"
 
 namespace tyndall::radiosity {
 namespace {
@@ -98,7 +98,6 @@ class Binder {
         fill_media();
         bind_sides();
         resolve_power();
-        refuse_unbounded();
     }
 
   private:
@@ -151,15 +150,16 @@ class Binder {
 
     MediumOptics optics(const Medium& medium) const {
         MediumOptics result{medium.name, {}, {}, {}, {}};
+        if (!medium.heat.empty() && settles()) result.settled_heat = medium.heat[0];
         for (std::size_t b = 0; b < e_.bands; ++b) {
             const double scattering =
                 medium.extinction[b] * medium.albedo[b] * (1.0 - medium.asymmetry);
             const double absorption = medium.extinction[b] * (1.0 - medium.albedo[b]);
             const double extinction = absorption + scattering;
             const double albedo = extinction > 0.0 ? scattering / extinction : 0.0;
-            const bool heated = !medium.heat.empty();
+            const bool heated = !medium.heat.empty() && !settles();
             result.extinction.push_back(extinction);
-            result.absorption.push_back(heated ? extinction : absorption);
+            result.absorption.push_back(absorption);
             result.albedo.push_back(heated ? 1.0 : albedo);
             double emission = medium.emission.empty() ? 0.0 : (1.0 - albedo) * medium.emission[b];
             if (heated && extinction > 0.0)
@@ -217,6 +217,18 @@ class Binder {
         return fmt::format(" (\"{}\")", scene_.surfaces[polygons_.surface[polygons[0].value]].name);
     }
 
+    // Whether heat and flux are those of all bands together.
+    bool settles() const { return e_.bands > 1 && !e_.spectral.empty(); }
+
+    void prescribe(const Spectrum& flux, SurfaceSide& side) const {
+        if (settles()) {
+            side.settled_flux = flux[0];
+            return;
+        }
+        side.reflectance.assign(e_.bands, 1.0);
+        for (std::size_t b = 0; b < e_.bands; ++b) side.emission[b] = flux[b] / std::numbers::pi;
+    }
+
     // The side's optics; `index` of (surface, side) is made when it first faces light.
     std::uint32_t side_index(std::size_t surface, Side side) {
         auto& index = indices_[2 * surface + (side == Side::back)];
@@ -234,8 +246,10 @@ class Binder {
         result.surface = surface;
         result.side = side;
         result.reflectance = material->reflectance;
+        for (const double rho : material->reflectance) result.emissivity.push_back(1.0 - rho);
         result.emission =
             emits && !material->emission.empty() ? material->emission : Spectrum(e_.bands, 0.0);
+        if (emits && !material->flux.empty()) prescribe(material->flux, result);
         materials_.push_back(emits ? material : nullptr);
         e_.sides.push_back(std::move(result));
         return index;
@@ -291,11 +305,6 @@ class Binder {
             named("surface", name, surface->where)));
     }
 
-    // A closed region with a source, no absorption and no opening has no steady state.
-    void refuse_unbounded();
-    template <class Find>
-    std::string boundary_of(std::uint32_t group, Find& find) const;
-
     const Scene& scene_;
     const Polygons& polygons_;
     const mesh::ConformingComplex& complex_;
@@ -305,67 +314,20 @@ class Binder {
     std::vector<const Material*> materials_;  // of each side, null where it does not emit
 };
 
-// "file:line:column: surface "room.floor": " of the first surface that bounds a group of regions.
-template <class Find>
-std::string Binder::boundary_of(std::uint32_t group, Find& find) const {
-    for (std::size_t f = 0; f < mesh_.facets.size(); ++f)
-        for (const int k : {0, 1}) {
-            if (e_.facet_sides[f][k] == none) continue;
-            if (find(mesh_.regions[mesh_.facets[f].tets[k].value].value) != group) continue;
-            const Surface& surface = scene_.surfaces[e_.sides[e_.facet_sides[f][k]].surface];
-            return named("surface", surface.name, surface.where) + ": ";
-        }
-    return {};
-}
-
-void Binder::refuse_unbounded() {
-    // Regions that light can pass between, joined through their interfaces.
-    std::vector<std::uint32_t> group(mesh_.region_count);
-    std::iota(group.begin(), group.end(), 0u);
-    const auto find = [&](std::uint32_t r) {
-        while (group[r] != r) r = group[r] = group[group[r]];
-        return r;
-    };
-    for (const auto& facet : mesh_.facets)
-        if (facet.opacity == Opacity::interface && facet.tets[0].valid() && facet.tets[1].valid())
-            group[find(mesh_.regions[facet.tets[0].value].value)] =
-                find(mesh_.regions[facet.tets[1].value].value);
-
-    for (std::size_t band = 0; band < e_.bands; ++band) {
-        std::vector<bool> loses(mesh_.region_count), gains(mesh_.region_count);
-        for (std::size_t f = 0; f < mesh_.facets.size(); ++f)
-            for (const int k : {0, 1}) {
-                const auto side = e_.facet_sides[f][k];
-                if (side == none) continue;
-                const auto r = find(mesh_.regions[mesh_.facets[f].tets[k].value].value);
-                if (e_.sides[side].reflectance[band] < 1.0) loses[r] = true;
-                if (e_.sides[side].emission[band] > 0.0) gains[r] = true;
-            }
-        for (std::size_t t = 0; t < mesh_.tets.size(); ++t) {
-            if (e_.solid(TetId(t))) continue;
-            const auto r = find(mesh_.regions[t].value);
-            for (const TetId next : mesh_.neighbours[t])
-                if (!next.valid()) loses[r] = true;
-            const auto medium = e_.medium_of(TetId(t));
-            if (medium == none) continue;
-            if (e_.media[medium].albedo[band] < 1.0) loses[r] = true;
-            if (e_.media[medium].emission[band] > 0.0) gains[r] = true;
-        }
-        for (const Light& light : scene_.lights)
-            if (!std::holds_alternative<Sun>(light.source))
-                if (const RegionId r = region_at(mesh_, position(light)); r.valid())
-                    gains[find(r.value)] = true;
-        for (std::size_t r = 0; r < mesh_.region_count; ++r)
-            if (gains[r] && !loses[r] && !e_.region_solid[r])
-                throw InputError(fmt::format(
-                    "{}the closed region it bounds has a source of light but nothing that absorbs "
-                    "(every reflectance is 1, every albedo 1) and no opening: its light grows for "
-                    "ever. Lower a reflectance or an albedo, or open the region.",
-                    boundary_of(r, find)));
-    }
+bool asks_for_temperatures(const Scene& scene) {
+    return scene.spectral.thermal(scene.bands) &&
+           (scene.thermal ||
+            std::ranges::any_of(scene.materials, [](const auto& m) { return !m.flux.empty(); }) ||
+            std::ranges::any_of(scene.media, [](const auto& m) { return !m.heat.empty(); }));
 }
 
 }  // namespace
+
+bool shines(const SurfaceSide& side) {
+    const auto& e = side.emission;
+    return std::ranges::any_of(e, [](double v) { return v > 0.0; }) &&
+           std::ranges::none_of(e, [](double v) { return v < 0.0; });
+}
 
 Enclosure make_enclosure(const Scene& scene, const EnclosureOptions& options) {
     const Polygons polygons = collect_polygons(scene);
@@ -374,6 +336,8 @@ Enclosure make_enclosure(const Scene& scene, const EnclosureOptions& options) {
     const auto complex = mesh::conform(polygons.list, options.conform);
     Enclosure enclosure;
     enclosure.bands = scene.bands;
+    enclosure.spectral = scene.spectral;
+    enclosure.thermal = asks_for_temperatures(scene);
     const bool own = !options.tetrahedra.empty();
     mesh::FittedMesh fitted =
         own ? mesh::fit_tetrahedra(mesh::read_tet_file(options.tetrahedra), complex, polygons.list,
@@ -386,6 +350,7 @@ Enclosure make_enclosure(const Scene& scene, const EnclosureOptions& options) {
     enclosure.environment =
         scene.environment.empty() ? Spectrum(scene.bands, 0.0) : scene.environment;
     Binder(scene, polygons, complex, enclosure).bind();
+    refuse_unsteady(scene, enclosure);
     if (own) note_own_tetrahedra(fitted, options.tetrahedra.string(), enclosure);
     for (const Medium& medium : scene.media)
         if (medium.asymmetry != 0.0)

@@ -25,9 +25,13 @@ struct SurfaceSide {
     std::string name;         // with + or − (the hull: "outside")
     std::size_t surface = 0;  // index into Scene::surfaces
     Side side = Side::front;
-    Spectrum reflectance;  // rho [-]
-    Spectrum emission;     // I_e [W/m^2/sr]
-    double area = 0.0;     // that faces a region light can be in [m^2]
+    Spectrum reflectance;   // a of the one equation: rho, or 1 where a flux is given [-]
+    Spectrum emission;      // e of the one equation: I_e, or q/pi [W/m^2/sr]
+    double area = 0.0;      // that faces a region light can be in [m^2]
+    Spectrum emissivity{};  // 1 − rho, of its temperature; empty: 1 − reflectance [-]
+    // Net flux out of it in all bands together, where its temperature settles by that: its emission
+    // in each band is found with the solution [W/m^2].
+    std::optional<double> settled_flux{};
 };
 
 // A medium as it is solved: isotropic, with the reduced coefficients of an anisotropic one.
@@ -38,6 +42,8 @@ struct MediumOptics {
     // e of the one equation: (1−Omega) J_e, or Q/(4 kappa_t), times 1/pi [W/m^2/sr]
     Spectrum emission;
     Spectrum absorption;  // kappa_a [1/m]
+    // Q of all bands together, as SurfaceSide::settled_flux [W/m^3].
+    std::optional<double> settled_heat{};
 };
 
 inline constexpr std::uint32_t none = 0xffffffffu;
@@ -58,6 +64,8 @@ struct Enclosure {
     Spectrum environment;  // radiance from outside [W/m^2/sr]
     bool open = false;     // some active region reaches the hull
     std::vector<std::string> warnings;
+    SpectralModel spectral{};  // what the bands are
+    bool thermal = false;      // temperatures are found
 
     std::uint32_t medium_of(TetId tet) const {
         return region_medium[mesh.regions[tet.value].value];
@@ -77,11 +85,15 @@ struct EnclosureOptions {
     std::filesystem::path tetrahedra{};
 };
 
+// Whether direct light may count what a side emits in closed form: a sink (a negative flux) cannot
+// be a lamp.
+bool shines(const SurfaceSide& side);
+
 // Purpose: conform the surfaces, tetrahedralize, tell solid from empty from filled, bind optics.
 // Errors: mesh::InputError with file:line:column (Scene's `where`) and name: what cannot be meshed;
 //   a medium point in no region, on a wall or outside; two media that claim one region; a power on
-//   a surface without area; a closed region with a source, no absorption and no opening; a file of
-//   tetrahedra that cannot be read or does not follow the surfaces.
+//   a surface without area; a closed region with a source, a flux or heat, but no absorption and no
+//   opening; a file of tetrahedra that cannot be read or does not follow the surfaces.
 // Cost: dominated by CGAL and TetGen; about 1 s for a thousand facets.
 Enclosure make_enclosure(const Scene& scene, const EnclosureOptions& options = {});
 

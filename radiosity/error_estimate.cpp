@@ -140,7 +140,6 @@ LeafErrors leaf_errors(const Enclosure& enclosure, ElementMesh& mesh, DirectRefi
 
 void estimate_errors(const LeafErrors& errors, const std::optional<View>& view, Solution& s) {
     const Enclosure& enclosure = *s.enclosure;
-    const bool split = s.direct_light == DirectLightMode::closed_form;
     SolutionSums sums;
     for (std::size_t z = 0; z < s.forest.zone_count(); ++z) {
         const ZoneId zone(z);
@@ -158,7 +157,7 @@ void estimate_errors(const LeafErrors& errors, const std::optional<View>& view, 
         const double departure = errors.patch_elements[p];
         s.patch_error[p] = static_cast<float>(leaf_error(s, errors, patch, departure));
         for (std::size_t b = 0; b < enclosure.bands; ++b)
-            sums.add(s, errors, patch, departure, split ? emission_of(s, patch, b) : 0.0,
+            sums.add(s, errors, patch, departure, split_emission_of(s, patch, b),
                      s.forest.area(patch), b);
     }
     s.patch_direct_error = errors.patch_direct;

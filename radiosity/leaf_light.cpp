@@ -45,9 +45,9 @@ Fields LeafLight::sources(const CoarseSolution& coarse, const LitPatches* lit) {
             const double a = e.scatter[k];
             if (lit && std::is_same_v<decltype(node), PatchId>) f = {};
             const Affine& g = indirect[k];
-            result.at(node, b) = {
-                a * (f.gradient + g.gradient),
-                e.emission[k] - coarse.split_emission(element, b) + a * (f.constant + g.constant)};
+            result.at(node, b) = {a * (f.gradient + g.gradient),
+                                  coarse.emission(element, b) - coarse.split_emission(element, b) +
+                                      a * (f.constant + g.constant)};
         }
     };
     for (const ZoneId z : mesh_.zones())
@@ -59,20 +59,40 @@ Fields LeafLight::sources(const CoarseSolution& coarse, const LitPatches* lit) {
     return result;
 }
 
-void LeafLight::update_zones(IndirectRefiner& indirect, Fields& sources) {
+void LeafLight::update_zones(const CoarseSolution& coarse, IndirectRefiner& indirect,
+                             Fields& sources) {
     const Forest& forest = mesh_.forest();
     extend(forest, sources);
     for (const ZoneId z : mesh_.zones()) {
         if (!forest.is_leaf(z)) continue;
         const MediumOptics& optics = enclosure_.media[medium_of(enclosure_, forest, z)];
+        const std::uint32_t element = element_above(z, coarse.elements().of_zone);
         for (std::size_t b = 0; b < sources.bands; ++b) {
             const Affine d = direct_with_mean(z, b), i = indirect.field(z, b);
-            sources.at(z, b) = {optics.albedo[b] * (d.gradient + i.gradient),
-                                optics.emission[b] + optics.albedo[b] * (d.constant + i.constant)};
+            sources.at(z, b) = {
+                optics.albedo[b] * (d.gradient + i.gradient),
+                coarse.emission(element, b) + optics.albedo[b] * (d.constant + i.constant)};
         }
     }
     if (radiance_ == Radiance::constant) flatten(forest, sources);
     coarsen(forest, sources);
+}
+
+Solution::SettledEmission LeafLight::settled(const CoarseSolution& coarse) const {
+    const Forest& forest = mesh_.forest();
+    const Elements& e = coarse.elements();
+    Solution::SettledEmission result;
+    result.zone.resize(forest.zone_count() * e.bands);
+    result.patch.resize(forest.patch_count() * e.bands);
+    const auto fill = [&](auto node, std::uint32_t element, std::vector<double>& values) {
+        for (std::size_t b = 0; b < e.bands; ++b)
+            values[node.value * e.bands + b] = coarse.emission(element, b);
+    };
+    for (const ZoneId z : mesh_.zones())
+        if (forest.is_leaf(z)) fill(z, element_above(z, e.of_zone), result.zone);
+    for (const PatchId p : mesh_.patches())
+        if (forest.is_leaf(p)) fill(p, element_above(p, e.of_patch), result.patch);
+    return result;
 }
 
 Fields LeafLight::indirect(const CoarseSolution& coarse) {

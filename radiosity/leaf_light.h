@@ -35,7 +35,10 @@ class LeafLight {
     Fields indirect(const CoarseSolution& coarse);
 
     // Gives the zones of such sources what has been gathered there since.
-    void update_zones(IndirectRefiner& indirect, Fields& sources);
+    void update_zones(const CoarseSolution& coarse, IndirectRefiner& indirect, Fields& sources);
+
+    // What the elements above the leaves have settled to emit, and what else is emitted.
+    Solution::SettledEmission settled(const CoarseSolution& coarse) const;
 
     // The element of the coarse solution that a leaf lies in.
     template <class Node>

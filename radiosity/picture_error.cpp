@@ -62,7 +62,7 @@ class ErrorWalk {
             return front * f.at(in) + back * f.at(out);
         };
         const double a = optics.albedo[band_];
-        radiance_ += (front + back) * optics.emission[band_] +
+        radiance_ += (front + back) * emission_of(s_, zone, band_) +
                      a * std::max(0.0, seen(s_.direct) + seen(s_.indirect));
         gathers_ += a * seen(errors_.gathers);
         coarse_ += a * seen(errors_.coarse);

@@ -103,11 +103,12 @@ ZoneValues Probe::in_space(Point x) const {
     Spectrum direct(e.bands);
     light_.at_zone(at.x, at.tet, direct);
     const auto medium = e.medium_of(at.tet);
+    const ZoneId leaf = solution_.forest.leaf_at(mesh::root_zone(at.tet), at.x);
     ZoneValues values;
     for (std::size_t b = 0; b < e.bands; ++b) {
         const double incident = direct[b] + indirect[b].mean;
         const double albedo = medium == none ? 0.0 : e.media[medium].albedo[b];
-        const double emission = medium == none ? 0.0 : e.media[medium].emission[b];
+        const double emission = medium == none ? 0.0 : emission_of(solution_, leaf, b);
         values.source.push_back(emission + albedo * incident);
         values.source_direct.push_back(albedo * direct[b]);
         values.incident.push_back(4.0 * pi * incident);

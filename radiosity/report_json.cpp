@@ -104,6 +104,19 @@ Spectrum spectrum_of(const Json& json) {
     return spectrum;
 }
 
+Json spectra_json(const std::map<std::string, Spectrum>& spectra) {
+    Json json = Json::object();
+    for (const auto& [name, spectrum] : spectra) json[name] = spectrum_json(spectrum);
+    return json;
+}
+
+std::map<std::string, Spectrum> spectra_of(const Json& json, const char* key) {
+    std::map<std::string, Spectrum> spectra;
+    if (const auto found = json.find(key); found != json.end())
+        for (const auto& [name, values] : found->items()) spectra[name] = spectrum_of(values);
+    return spectra;
+}
+
 Json parts_json(const ErrorParts& parts) {
     return {{"elements", parts.elements}, {"gathers", parts.gathers}, {"coarse", parts.coarse}};
 }
@@ -149,8 +162,14 @@ Report report_of(const Json& json) {
         report.smoothing = smoothing_of(*smoothing);
     report.energy_balance = number(json.at("energy_balance"));
     report.direct_power_check = number(json.at("direct_power_check"));
-    for (const auto& [name, power] : json.at("net_power").items())
-        report.net_power[name] = spectrum_of(power);
+    report.net_power = spectra_of(json, "net_power");
+    // Files of earlier versions do not have these three.
+    report.net_flux = spectra_of(json, "net_flux");
+    report.flux_divergence = spectra_of(json, "flux_divergence");
+    if (const auto found = json.find("temperature"); found != json.end())
+        for (const auto& [name, range] : found->items())
+            report.temperature[name] = {number(range.at("mean")), number(range.at("lowest")),
+                                        number(range.at("highest"))};
     report.estimated_error = number(json.at("estimated_error"));
     // Files of earlier versions do not have these.
     if (const auto parts = json.find("error_parts"); parts != json.end()) {
@@ -178,9 +197,12 @@ std::string report_to_json(const Report& report, Costs costs) {
     if (report.smoothing) json["smoothing"] = smoothing_json(*report.smoothing);
     json["energy_balance"] = report.energy_balance;
     json["direct_power_check"] = report.direct_power_check;
-    json["net_power"] = Json::object();
-    for (const auto& [name, power] : report.net_power)
-        json["net_power"][name] = spectrum_json(power);
+    json["net_power"] = spectra_json(report.net_power);
+    json["net_flux"] = spectra_json(report.net_flux);
+    json["flux_divergence"] = spectra_json(report.flux_divergence);
+    for (const auto& [name, range] : report.temperature)
+        json["temperature"][name] = {
+            {"mean", range.mean}, {"lowest", range.lowest}, {"highest", range.highest}};
     json["estimated_error"] = report.estimated_error;
     json["estimated_picture_error"] =
         report.picture_error ? Json(report.picture_error->total()) : Json();

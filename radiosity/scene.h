@@ -8,6 +8,7 @@
 
 #include "mesh/polygon.h"
 #include "mesh/types.h"
+#include "radiosity/black_body.h"
 
 namespace tyndall::radiosity {
 
@@ -24,6 +25,9 @@ struct Material {
     Spectrum reflectance{};  // Lambertian, 0 to 1 [-]
     Spectrum emission{};     // radiance I_e; empty: none [W/m^2/sr]
     Spectrum power{};        // instead of emission: of the whole surface; empty: none [W]
+    // Instead: net flux out of the wall, whatever falls on it; 0 is adiabatic. One value a band, or
+    // one for all bands where Scene::spectral says what they are; empty: none [W/m^2].
+    Spectrum flux{};
     EmittingSides emits = EmittingSides::front;
     std::optional<std::size_t> back{};  // index of the material of the back side; none: the same
     std::string where{};                // file:line:column, for messages
@@ -43,7 +47,9 @@ struct Medium {
     // g of Henyey–Greenstein, −1 < g < 1; the solve uses reduced coefficients [-]
     double asymmetry = 0.0;
     Spectrum emission{};  // J_e; empty: none [W/m^2/sr]
-    Spectrum heat{};      // instead: source Q, 0 is radiative equilibrium; empty: none [W/m^3]
+    // Instead: source Q, 0 is radiative equilibrium. One value a band, or one for all as with
+    // Material::flux; empty: none [W/m^3].
+    Spectrum heat{};
     // Fills the region around this point; none: every region that is not solid [m].
     std::optional<Point> at{};
     std::string where{};
@@ -85,6 +91,8 @@ struct Scene {
     std::vector<Light> lights{};
     Spectrum environment{};           // radiance that comes in from outside; empty: 0 [W/m^2/sr]
     std::vector<Point> viewpoints{};  // cameras' eyes: a region that holds one is not solid [m]
+    SpectralModel spectral{};         // what the bands are
+    bool thermal = false;  // temperatures are asked for, even if no flux and no heat is given
 };
 
 }  // namespace tyndall::radiosity

@@ -63,9 +63,7 @@ std::vector<ShadowBoundaries::Source> ShadowBoundaries::sources(const Enclosure&
         for (int k = 0; k < 2; ++k) {
             const auto side = enclosure.facet_sides[f][k];
             if (side == none) continue;
-            const auto& emission = enclosure.sides[side].emission;
-            if (std::all_of(emission.begin(), emission.end(), [](double e) { return e == 0.0; }))
-                continue;
+            if (!shines(enclosure.sides[side])) continue;
             Direction n = mesh::normal(enclosure.mesh, FacetId(f));
             if (k == 1) n = -n;
             Source& source = sides[side];

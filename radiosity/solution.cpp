@@ -21,6 +21,8 @@ Affine combine(double emission, double scatter, const Affine& direct, const Affi
 }  // namespace
 
 double emission_of(const Solution& solution, ZoneId zone, std::size_t band) {
+    if (!solution.settled.zone.empty())
+        return solution.settled.zone[zone.value * solution.enclosure->bands + band];
     const auto* medium = optics(solution, zone);
     return medium ? medium->emission[band] : 0.0;
 }
@@ -31,6 +33,8 @@ double scatter_of(const Solution& solution, ZoneId zone, std::size_t band) {
 }
 
 double emission_of(const Solution& solution, PatchId patch, std::size_t band) {
+    if (!solution.settled.patch.empty())
+        return solution.settled.patch[patch.value * solution.enclosure->bands + band];
     const auto* surface = side(solution, patch);
     return surface ? surface->emission[band] : 0.0;
 }
@@ -40,10 +44,16 @@ double scatter_of(const Solution& solution, PatchId patch, std::size_t band) {
     return surface ? surface->reflectance[band] : 0.0;
 }
 
+double split_emission_of(const Solution& s, PatchId patch, std::size_t band) {
+    const SurfaceSide* surface = side(s, patch);
+    const bool split =
+        s.direct_light == DirectLightMode::closed_form && surface && shines(*surface);
+    return split ? surface->emission[band] : 0.0;
+}
+
 Fields reflected_sources(const Solution& s) {
     Fields sources;
     sources.resize(s.forest, s.enclosure->bands);
-    const bool split = s.direct_light == DirectLightMode::closed_form;
     for (std::size_t z = 0; z < s.forest.zone_count(); ++z) {
         const ZoneId zone(z);
         if (!s.forest.is_leaf(zone)) continue;
@@ -56,8 +66,8 @@ Fields reflected_sources(const Solution& s) {
         if (!s.forest.is_leaf(patch)) continue;
         for (std::size_t b = 0; b < sources.bands; ++b)
             sources.at(patch, b) =
-                combine(split ? 0.0 : emission_of(s, patch, b), scatter_of(s, patch, b),
-                        s.direct.at(patch, b), s.indirect.at(patch, b));
+                combine(emission_of(s, patch, b) - split_emission_of(s, patch, b),
+                        scatter_of(s, patch, b), s.direct.at(patch, b), s.indirect.at(patch, b));
     }
     coarsen(s.forest, sources);
     return sources;

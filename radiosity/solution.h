@@ -48,6 +48,11 @@ struct ErrorParts {
     }
 };
 
+// Of the leaves of a surface side or a medium, the mean by area or volume [K].
+struct TemperatureRange {
+    double mean = 0.0, lowest = 0.0, highest = 0.0;
+};
+
 struct Report {
     std::size_t patches = 0, zones = 0;  // leaves
     std::size_t solved_elements = 0;     // elements of the coarse solution
@@ -60,6 +65,11 @@ struct Report {
     double direct_power_check = 0.0;           // (received + escaped − emitted) / emitted [-]
     // Out of each surface side, medium; into outside [W].
     std::map<std::string, Spectrum> net_power;
+    // The same over the area of each side, the volume of each medium.
+    std::map<std::string, Spectrum> net_flux;         // [W/m^2]
+    std::map<std::string, Spectrum> flux_divergence;  // [W/m^3]
+    // Where temperatures have a meaning: of sides and media that can emit.
+    std::map<std::string, TemperatureRange> temperature;
     // Of what refinement weighs errors by: the picture, or the solution where there is no view or
     // refinement does not ask for it [-].
     double estimated_error = 0.0;
@@ -84,6 +94,12 @@ struct Solution {
     std::shared_ptr<const Enclosure> enclosure;
     Forest forest;
     Fields direct, indirect;  // of every leaf [W/m^2/sr]
+    // e of every leaf, where some side or medium settles its temperature in several bands
+    // ([node * bands + band]); empty: that of the sides and media [W/m^2/sr].
+    struct SettledEmission {
+        std::vector<double> zone, patch;
+    };
+    SettledEmission settled;
     ElementValues coarse;
     DirectLightMode direct_light = DirectLightMode::closed_form;
     // Estimated error of each leaf's x, by node, all causes joined [W/m^2/sr].
@@ -98,6 +114,9 @@ double emission_of(const Solution& solution, ZoneId zone, std::size_t band);
 double scatter_of(const Solution& solution, ZoneId zone, std::size_t band);
 double emission_of(const Solution& solution, PatchId patch, std::size_t band);
 double scatter_of(const Solution& solution, PatchId patch, std::size_t band);
+
+// e^A: emission of a patch that direct light counts in closed form; 0 else.
+double split_emission_of(const Solution& solution, PatchId patch, std::size_t band);
 
 // r of every leaf for gathers, coarsened: all it sends out but for the emission of surfaces that
 // direct light counts in closed form.

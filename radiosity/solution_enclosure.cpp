@@ -76,6 +76,80 @@ Light light_of(const Json& json) {
     return light;
 }
 
+Json spectral_json(const SpectralModel& model) {
+    Json json{{"band_edges", model.band_edges}};  // infinity is written as null
+    const GreyGases& grey = model.grey_gases;
+    json["name"] = grey.name;
+    json["temperatures"] = {grey.lowest, grey.highest};
+    json["gases"] = Json::array();
+    for (const GreyGas& gas : grey.gases)
+        json["gases"].push_back({{"absorption", gas.absorption}, {"weights", gas.weights}});
+    return json;
+}
+
+SpectralModel spectral_of(const Json& json) {
+    SpectralModel model;
+    for (const auto& edge : json.at("band_edges"))
+        model.band_edges.push_back(edge.is_null() ? HUGE_VAL : edge.get<double>());
+    model.grey_gases = {json.at("name").get<std::string>(),
+                        json.at("temperatures").at(0).get<double>(),
+                        json.at("temperatures").at(1).get<double>(),
+                        {}};
+    for (const auto& gas : json.at("gases"))
+        model.grey_gases.gases.push_back(
+            {gas.at("absorption").get<double>(), gas.at("weights").get<std::vector<double>>()});
+    return model;
+}
+
+// A number that may be missing.
+Json optional_json(const std::optional<double>& value) {
+    return value ? Json(*value) : Json();
+}
+
+std::optional<double> optional_of(const Json& json, const char* key) {
+    const auto found = json.find(key);
+    if (found == json.end() || found->is_null()) return {};
+    return found->get<double>();
+}
+
+Json side_json(const SurfaceSide& side) {
+    return {{"name", side.name},
+            {"surface", side.surface},
+            {"back", side.side == Side::back},
+            {"reflectance", side.reflectance},
+            {"emission", side.emission},
+            {"area", side.area},
+            {"emissivity", side.emissivity},
+            {"settled_flux", optional_json(side.settled_flux)}};
+}
+
+// Files of earlier versions have no emissivity, nor what comes after it.
+SurfaceSide side_from(const Json& json) {
+    return {json.at("name").get<std::string>(),
+            json.at("surface").get<std::size_t>(),
+            json.at("back").get<bool>() ? Side::back : Side::front,
+            json.at("reflectance").get<Spectrum>(),
+            json.at("emission").get<Spectrum>(),
+            json.at("area").get<double>(),
+            json.value("emissivity", Spectrum()),
+            optional_of(json, "settled_flux")};
+}
+
+Json medium_json(const MediumOptics& medium) {
+    return {{"name", medium.name},
+            {"extinction", medium.extinction},
+            {"albedo", medium.albedo},
+            {"emission", medium.emission},
+            {"absorption", medium.absorption},
+            {"settled_heat", optional_json(medium.settled_heat)}};
+}
+
+MediumOptics medium_from(const Json& json) {
+    return {json.at("name").get<std::string>(),    json.at("extinction").get<Spectrum>(),
+            json.at("albedo").get<Spectrum>(),     json.at("emission").get<Spectrum>(),
+            json.at("absorption").get<Spectrum>(), optional_of(json, "settled_heat")};
+}
+
 Json optics_json(const Enclosure& e) {
     Json json;
     json["bands"] = e.bands;
@@ -85,23 +159,14 @@ Json optics_json(const Enclosure& e) {
     json["hull_max"] = vector_json(e.mesh.hull_max);
     json["environment"] = e.environment;
     json["sides"] = Json::array();
-    for (const auto& side : e.sides)
-        json["sides"].push_back({{"name", side.name},
-                                 {"surface", side.surface},
-                                 {"back", side.side == Side::back},
-                                 {"reflectance", side.reflectance},
-                                 {"emission", side.emission},
-                                 {"area", side.area}});
+    for (const auto& side : e.sides) json["sides"].push_back(side_json(side));
     json["media"] = Json::array();
-    for (const auto& medium : e.media)
-        json["media"].push_back({{"name", medium.name},
-                                 {"extinction", medium.extinction},
-                                 {"albedo", medium.albedo},
-                                 {"emission", medium.emission},
-                                 {"absorption", medium.absorption}});
+    for (const auto& medium : e.media) json["media"].push_back(medium_json(medium));
     json["lights"] = Json::array();
     for (const auto& light : e.lights) json["lights"].push_back(light_json(light));
     json["warnings"] = e.warnings;
+    json["spectral"] = spectral_json(e.spectral);
+    json["thermal"] = e.thermal;
     return json;
 }
 
@@ -112,17 +177,10 @@ void bind_optics(const Json& json, Enclosure& e) {
     e.mesh.hull_min = vector_of(json.at("hull_min"));
     e.mesh.hull_max = vector_of(json.at("hull_max"));
     e.environment = json.at("environment").get<Spectrum>();
-    for (const auto& side : json.at("sides"))
-        e.sides.push_back({side.at("name").get<std::string>(),
-                           side.at("surface").get<std::size_t>(),
-                           side.at("back").get<bool>() ? Side::back : Side::front,
-                           side.at("reflectance").get<Spectrum>(),
-                           side.at("emission").get<Spectrum>(), side.at("area").get<double>()});
-    for (const auto& medium : json.at("media"))
-        e.media.push_back(
-            {medium.at("name").get<std::string>(), medium.at("extinction").get<Spectrum>(),
-             medium.at("albedo").get<Spectrum>(), medium.at("emission").get<Spectrum>(),
-             medium.at("absorption").get<Spectrum>()});
+    for (const auto& side : json.at("sides")) e.sides.push_back(side_from(side));
+    for (const auto& medium : json.at("media")) e.media.push_back(medium_from(medium));
+    if (json.contains("spectral")) e.spectral = spectral_of(json.at("spectral"));
+    e.thermal = json.value("thermal", false);
     for (const auto& light : json.at("lights")) e.lights.push_back(light_of(light));
     e.warnings = json.at("warnings").get<std::vector<std::string>>();
 }
@@ -131,7 +189,12 @@ void bind_optics(const Json& json, Enclosure& e) {
 bool spectra_fit(const Enclosure& e) {
     const auto fits = [&](const Spectrum& s) { return s.size() == e.bands; };
     bool good = e.bands >= 1 && fits(e.environment);
-    for (const auto& side : e.sides) good = good && fits(side.reflectance) && fits(side.emission);
+    const SpectralModel& model = e.spectral;
+    if (!model.band_edges.empty()) good = good && model.band_edges.size() == e.bands + 1;
+    if (!model.grey_gases.gases.empty()) good = good && model.grey_gases.bands() == e.bands;
+    for (const auto& side : e.sides)
+        good = good && fits(side.reflectance) && fits(side.emission) &&
+               (side.emissivity.empty() || fits(side.emissivity));
     for (const auto& m : e.media)
         good =
             good && fits(m.extinction) && fits(m.albedo) && fits(m.emission) && fits(m.absorption);

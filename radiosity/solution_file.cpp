@@ -93,6 +93,33 @@ void read_errors(const Hdf5Reader& file, const Elements& elements, Solution& s) 
     for (k = 0; k < direct.size(); ++k) s.patch_direct_error[elements.patches[k].value] = direct[k];
 }
 
+// Emission that was found with the solution, of the leaves in their order.
+void write_settled(Hdf5Writer& file, const Solution& s, const Elements& elements) {
+    if (s.settled.zone.empty() && s.settled.patch.empty()) return;
+    std::vector<double> values;
+    for (const PatchId patch : elements.patches)
+        for (std::size_t b = 0; b < elements.bands; ++b) values.push_back(emission_of(s, patch, b));
+    for (const ZoneId zone : elements.zones)
+        for (std::size_t b = 0; b < elements.bands; ++b) values.push_back(emission_of(s, zone, b));
+    file.array(root + "/settled_emission", values);
+}
+
+void read_settled(const Hdf5Reader& file, const Elements& elements, Solution& s) {
+    const std::string path = root + "/settled_emission";
+    if (!file.has(path)) return;
+    const auto values = file.array<double>(path);
+    expect_size(file, path, values.size(), elements.size() * elements.bands);
+    s.settled.patch.resize(s.forest.patch_count() * elements.bands);
+    s.settled.zone.resize(s.forest.zone_count() * elements.bands);
+    std::size_t k = 0;
+    for (const PatchId patch : elements.patches)
+        for (std::size_t b = 0; b < elements.bands; ++b)
+            s.settled.patch[patch.value * elements.bands + b] = values[k++];
+    for (const ZoneId zone : elements.zones)
+        for (std::size_t b = 0; b < elements.bands; ++b)
+            s.settled.zone[zone.value * elements.bands + b] = values[k++];
+}
+
 void write_coarse(Hdf5Writer& file, const ElementValues& coarse) {
     const std::string folder = root + "/coarse";
     file.group(folder);
@@ -251,6 +278,7 @@ void write_solution(const std::filesystem::path& path, const Solution& solution,
     write_forest(file, solution.forest);
     file.array(root + "/direct", field_values(solution.direct, elements), 4);
     file.array(root + "/indirect", field_values(solution.indirect, elements), 4);
+    write_settled(file, solution, elements);
     write_errors(file, solution, elements);
     write_coarse(file, solution.coarse);
     file.array(root + "/direct_in_rows",
@@ -277,6 +305,7 @@ SolutionFile read_solution(const std::filesystem::path& path) {
         file.fail("another version of this program, which numbers leaves in another way, wrote it");
     s.direct = read_fields(file, root + "/direct", s.forest, elements);
     s.indirect = read_fields(file, root + "/indirect", s.forest, elements);
+    read_settled(file, elements, s);
     read_errors(file, elements, s);
     s.coarse = read_coarse(file, s.forest, s.enclosure->bands);
     const auto rows = file.array<std::uint8_t>(root + "/direct_in_rows");

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "radiosity/solution_parts.h"
+#include "radiosity/temperatures.h"
 
 namespace tyndall::radiosity {
 namespace {
@@ -69,6 +70,7 @@ class Grid {
         for (std::size_t k = 0; k < quantities; ++k)
             file.array(folder + "/" + quantity_names[k], values_[k], bands_);
         file.array(folder + "/source_radiance_gradient", gradient_, 3 * bands_);
+        if (e_.thermal) file.array(folder + "/temperature", temperature_);
         file.array(folder + "/error", error_);
         file.array(folder + "/level", level_);
         file.array(folder + "/parent", parent_);
@@ -100,6 +102,13 @@ class Grid {
             values_[incident].push_back(q.incident.at(centroid));
             values_[albedo].push_back(q.scatter);
         }
+        if (e_.thermal) temperature_.push_back(temperature_of(s_, node));
+    }
+
+    // Of the material: a of the one equation is another where a flux is given.
+    double rho(PatchId patch, std::size_t band) const {
+        const SurfaceSide& side = e_.sides[side_of(e_, s_.forest, patch)];
+        return side.emissivity.empty() ? side.reflectance[band] : 1.0 - side.emissivity[band];
     }
 
     void add(PatchId patch) {
@@ -116,7 +125,7 @@ class Grid {
             // x − H, written so that nothing cancels where everything is reflected.
             values_[net_flux].push_back(pi * (q.emission - (1.0 - q.scatter) * h));
             values_[flux_divergence].push_back(0.0);
-            values_[emission].push_back(q.emission);
+            values_[emission].push_back(q.emission + (q.scatter - rho(patch, b)) * h);
             values_[extinction].push_back(0.0);
         }
     }
@@ -138,8 +147,13 @@ class Grid {
             // 4 pi kappa_a (J_e − H), likewise.
             values_[flux_divergence].push_back(4.0 * pi * kappa *
                                                (q.emission - (1.0 - q.scatter) * h));
+            // J_e, of a heated medium too: (1 − Omega) J_e = x − Omega H.
+            const double scattering = kappa - optics.absorption[b];
             values_[emission].push_back(
-                optics.absorption[b] > 0.0 ? q.emission * kappa / optics.absorption[b] : 0.0);
+                optics.absorption[b] > 0.0
+                    ? (kappa * q.emission + (q.scatter * kappa - scattering) * h) /
+                          optics.absorption[b]
+                    : 0.0);
             values_[extinction].push_back(kappa);
         }
     }
@@ -163,7 +177,7 @@ class Grid {
     const Solution& s_;
     const Enclosure& e_;
     std::size_t bands_;
-    std::vector<double> points_, radiance_, gradient_;
+    std::vector<double> points_, radiance_, gradient_, temperature_;
     std::vector<std::int64_t> connectivity_, offsets_{0}, parent_;
     std::vector<std::uint8_t> types_, kind_;
     std::vector<std::int32_t> level_, name_id_;

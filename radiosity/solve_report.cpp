@@ -26,11 +26,15 @@ void warn_of_thick_zones(const Enclosure& enclosure, const CoarseSolution& coars
         double volume = 0.0;
         for (const auto member : e.members_of(i)) volume += coarse.forest().volume(ZoneId(member));
         const double size = std::cbrt(volume);
-        for (const double extinction : enclosure.media[m].extinction)
-            if (extinction * size > thickest) {
-                thickest = extinction * size;
+        const MediumOptics& optics = enclosure.media[m];
+        for (std::size_t b = 0; b < optics.extinction.size(); ++b) {
+            // J is known, and constant, where a medium only emits.
+            if (optics.albedo[b] == 0.0 && !optics.settled_heat) continue;
+            if (optics.extinction[b] * size > thickest) {
+                thickest = optics.extinction[b] * size;
                 medium = m;
             }
+        }
     }
     const double thin = thin_enough(coarse);
     if (thickest > thin)
@@ -86,6 +90,8 @@ Report solve_report(const Enclosure& enclosure, const CoarseSolution& coarse,
     }
     const Balance power = balance(enclosure, coarse, incident_direct, light, ending.escaped_direct);
     report.net_power = power.net_power;
+    report.net_flux = power.net_flux;
+    report.flux_divergence = power.flux_divergence;
     report.energy_balance = power.energy_balance;
     report.direct_power_check = ending.direct_power_check;
     report.warnings = enclosure.warnings;

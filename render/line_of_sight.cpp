@@ -88,10 +88,10 @@ class LineOfSight {
                     transmittance *
                     (w.front * std::max(0.0, at_in) + w.back * std::max(0.0, at_out));
             };
-            const double a = optics.albedo[b];
+            const double a = optics.albedo[b], emitted = radiosity::emission_of(s_, zone, b);
             const Affine& direct = s_.direct.at(zone, b);
             const Affine& indirect = s_.indirect.at(zone, b);
-            gain(emission, optics.emission[b], optics.emission[b]);
+            gain(emission, emitted, emitted);
             gain(single_scattering, a * direct.at(in), a * direct.at(out));
             gain(multiple_scattering, a * indirect.at(in), a * indirect.at(out));
             transmittance *= w.transmittance;
@@ -118,7 +118,7 @@ class LineOfSight {
         }
         for (std::size_t b = 0; b < bands_; ++b) {
             const double t = seen.transmittance[b], rho = optics.reflectance[b];
-            seen.radiance[emission * bands_ + b] += t * optics.emission[b];
+            seen.radiance[emission * bands_ + b] += t * radiosity::emission_of(s_, leaf, b);
             seen.radiance[surfaces_direct * bands_ + b] += t * rho * direct[b];
             seen.radiance[surfaces_indirect * bands_ + b] +=
                 t * rho * std::max(0.0, s_.indirect.at(leaf, b).at(x));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/scene_file.h"
+#include "cli/scene_spectrum.h"
 #include "mesh/input_error.h"
 #include "support/catch.h"
 
@@ -51,7 +52,7 @@ std::string message_of(const fs::path& path) {
 
 TEST_CASE("Broken scenes are refused, with place, name and advice") {
     const auto paths = scenes_in(fs::path(TYNDALL_SOURCE_DIR) / "tests/broken");
-    CHECK(paths.size() >= 170);
+    CHECK(paths.size() >= 185);
     for (const fs::path& path : paths) {
         const Expected expected = expectation(path);
         const std::string message = message_of(path);
@@ -59,6 +60,23 @@ TEST_CASE("Broken scenes are refused, with place, name and advice") {
         CHECK(message.rfind(path.string() + ":" + expected.place + ": ", 0) == 0);
         CHECK(message.find(expected.part) != std::string::npos);
         CHECK(message.find('\n') == std::string::npos);
+    }
+}
+
+TEST_CASE("Broken files of grey gases are refused, with place and advice") {
+    const auto paths = scenes_in(fs::path(TYNDALL_SOURCE_DIR) / "tests/broken/gases");
+    CHECK(paths.size() >= 10);
+    for (const fs::path& path : paths) {
+        const Expected expected = expectation(path);
+        std::string message;
+        try {
+            cli::read_grey_gases(path);
+        } catch (const mesh::InputError& error) {
+            message = error.what();
+        }
+        INFO(path.filename().string() << ": " << message);
+        CHECK(message.rfind(path.string() + ":" + expected.place + ": ", 0) == 0);
+        CHECK(message.find(expected.part) != std::string::npos);
     }
 }
 

@@ -1,0 +1,115 @@
+#include "radiosity/temperatures.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace tyndall::radiosity {
+namespace {
+
+// At a leaf's centroid, one value a band.
+template <class Node>
+Spectrum emission_at(const Solution& s, Node node) {
+    Spectrum emission(s.enclosure->bands);
+    for (std::size_t b = 0; b < emission.size(); ++b) emission[b] = emission_of(s, node, b);
+    return emission;
+}
+
+template <class Node>
+Spectrum incident_at(const Solution& s, Node node) {
+    const Point centroid = s.forest.centroid(node);
+    Spectrum incident(s.enclosure->bands);
+    for (std::size_t b = 0; b < incident.size(); ++b)
+        incident[b] =
+            std::max(0.0, s.direct.at(node, b).at(centroid) + s.indirect.at(node, b).at(centroid));
+    return incident;
+}
+
+// The mean being taken, and what it is divided by.
+struct Sums {
+    TemperatureRange range{0.0, std::numeric_limits<double>::infinity(), 0.0};
+    double measure = 0.0;
+
+    void add(double temperature, double size) {
+        range.mean += size * temperature;
+        measure += size;
+        range.lowest = std::min(range.lowest, temperature);
+        range.highest = std::max(range.highest, temperature);
+    }
+};
+
+bool emits(const Spectrum& weights) {
+    return std::ranges::any_of(weights, [](double w) { return w > 0.0; });
+}
+
+}  // namespace
+
+double temperature_of(const SpectralModel& model, const SurfaceSide& side,
+                      std::span<const double> emission, std::span<const double> incident) {
+    Spectrum emissivity = side.emissivity;
+    if (emissivity.empty())
+        for (const double rho : side.reflectance) emissivity.push_back(1.0 - rho);
+    double total = 0.0;
+    for (std::size_t b = 0; b < emissivity.size(); ++b)
+        total += emission[b] + (side.reflectance[b] - (1.0 - emissivity[b])) * incident[b];
+    return temperature_of(model, emissivity, total);
+}
+
+double temperature_of(const SpectralModel& model, const MediumOptics& medium,
+                      std::span<const double> emission, std::span<const double> incident) {
+    double total = 0.0;
+    for (std::size_t b = 0; b < medium.absorption.size(); ++b) {
+        const double scattering = medium.extinction[b] - medium.absorption[b];
+        total += medium.extinction[b] * emission[b] +
+                 (medium.albedo[b] * medium.extinction[b] - scattering) * incident[b];
+    }
+    return temperature_of(model, medium.absorption, total);
+}
+
+double temperature_of(const Solution& s, PatchId patch) {
+    const SurfaceSide& side = s.enclosure->sides[side_of(*s.enclosure, s.forest, patch)];
+    return temperature_of(s.enclosure->spectral, side, emission_at(s, patch),
+                          incident_at(s, patch));
+}
+
+double temperature_of(const Solution& s, ZoneId zone) {
+    const MediumOptics& medium = s.enclosure->media[medium_of(*s.enclosure, s.forest, zone)];
+    return temperature_of(s.enclosure->spectral, medium, emission_at(s, zone),
+                          incident_at(s, zone));
+}
+
+void report_temperatures(Solution& s) {
+    const Enclosure& e = *s.enclosure;
+    if (!e.thermal) return;
+    std::map<std::string, Sums> sums;
+    std::map<std::string, std::size_t> without;
+    const auto add = [&](const std::string& name, double temperature, double size) {
+        if (temperature >= 0.0)
+            sums[name].add(temperature, size);
+        else
+            ++without[name];
+    };
+    const Elements leaves = elements_of_leaves(e, s.forest);
+    for (const PatchId patch : leaves.patches) {
+        const SurfaceSide& side = e.sides[side_of(e, s.forest, patch)];
+        if (side.emissivity.empty() || emits(side.emissivity))
+            add(side.name, temperature_of(s, patch), s.forest.area(patch));
+    }
+    for (const ZoneId zone : leaves.zones) {
+        const MediumOptics& medium = e.media[medium_of(e, s.forest, zone)];
+        if (emits(medium.absorption))
+            add(medium.name, temperature_of(s, zone), s.forest.volume(zone));
+    }
+    for (auto& [name, sum] : sums) {
+        sum.range.mean /= sum.measure;
+        s.report.temperature[name] = sum.range;
+    }
+    for (const auto& [name, leaves] : without)
+        s.report.warnings.push_back(fmt::format(
+            "\"{}\" is to take up more heat than arrives there: {} of its elements have no "
+            "temperature. Ask for a smaller sink.",
+            name, leaves));
+}
+
+}  // namespace tyndall::radiosity
