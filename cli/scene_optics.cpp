@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "cli/scene_extinction.h"
 #include "cli/scene_keys.h"
 
 namespace tyndall::cli {
@@ -170,7 +171,8 @@ void read_materials(const TableReader& root, Names& names, radiosity::Scene& sce
     for (std::size_t i = 0; i < readers.size(); ++i) check_back(readers[i], scene.materials, i);
 }
 
-void read_media(const TableReader& root, radiosity::Scene& scene) {
+void read_media(const TableReader& root, const std::filesystem::path& folder,
+                radiosity::Scene& scene) {
     Names names("medium");
     const toml::table* everywhere = nullptr;
     std::string name_of_everywhere;
@@ -179,7 +181,7 @@ void read_media(const TableReader& root, radiosity::Scene& scene) {
         medium.name = names.take(*table);
         const TableReader reader(*table, keys::medium(), named("medium", medium.name));
         medium.where = reader.where();
-        medium.extinction = reader.spectrum("extinction", scene.bands, quantity);
+        read_extinction(reader, folder, scene.bands, medium);
         medium.albedo = reader.has("albedo") ? reader.spectrum("albedo", scene.bands, fraction)
                                              : Spectrum(scene.bands, 0.0);
         medium.asymmetry = read_phase(reader).value_or(0.0);

@@ -1,6 +1,8 @@
 // Materials, media, lights and the environment of a scene file.
 #pragma once
 
+#include <filesystem>
+
 #include "cli/names.h"
 #include "cli/toml_reader.h"
 #include "radiosity/scene.h"
@@ -12,7 +14,9 @@ namespace tyndall::cli {
 // (media), degrees to radians; directions to unit length. All throw mesh::InputError with place and
 // name.
 void read_materials(const TableReader& root, Names& names, radiosity::Scene& scene);
-void read_media(const TableReader& root, radiosity::Scene& scene);
+// `folder`: that of the scene file.
+void read_media(const TableReader& root, const std::filesystem::path& folder,
+                radiosity::Scene& scene);
 void read_lights(const TableReader& root, radiosity::Scene& scene);
 void read_environment(const TableReader& root, radiosity::Scene& scene);
 

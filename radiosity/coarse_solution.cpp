@@ -7,13 +7,13 @@
 namespace tyndall::radiosity {
 namespace {
 
-// The function with that gradient and mean whose gradient is shortened until no corner is below 0.
-template <class Corners>
-Affine affine_not_below_0(const Forest& forest, const Corners& corners, double mean,
+// The function with that gradient and with its mean at the node's centre, whose gradient is
+// shortened until no corner is below 0.
+template <class Node>
+Affine affine_not_below_0(const Enclosure& enclosure, const Forest& forest, Node node, double mean,
                           Direction gradient) {
-    Point centre(0.0);
-    for (const VertexId corner : corners) centre += forest.point(corner);
-    centre /= static_cast<double>(corners.size());
+    const auto& corners = forest[node].corners;
+    const Point centre = centre_of(enclosure, forest, node);
     double lowest = 0.0;
     for (const VertexId corner : corners)
         lowest = std::min(lowest, glm::dot(gradient, forest.point(corner) - centre));
@@ -32,6 +32,7 @@ CoarseSolution::CoarseSolution(const Enclosure& enclosure, const Forest& forest,
     : enclosure_(enclosure), forest_(forest), options_(options), elements_(std::move(elements)) {
     const NamedExchangeMethod& method = exchange_method(options.exchange);
     require_settings(method, options.exchange_settings);
+    require_media(method, enclosure);
     for (std::size_t band = 0; band < enclosure.bands; ++band) {
         const std::size_t same = first_of_extinction(enclosure, band);
         if (same < band) {
@@ -68,9 +69,9 @@ std::vector<Affine> CoarseSolution::linear_indirect() const {
         for (std::size_t i = 0; i < n; ++i)
             result[i * bands + b] =
                 elements_.is_patch(i)
-                    ? affine_not_below_0(forest_, forest_[elements_.patches[i]].corners, means[i],
+                    ? affine_not_below_0(enclosure_, forest_, elements_.patches[i], means[i],
                                          Direction(of_means[i]))
-                    : affine_not_below_0(forest_, forest_[elements_.zone(i)].corners, means[i],
+                    : affine_not_below_0(enclosure_, forest_, elements_.zone(i), means[i],
                                          Direction(of_means[i]));
     }
     return result;
