@@ -40,15 +40,15 @@ struct TetExtinction {
 
 // Purpose: ∫ κ dV and its centre.
 // Method: a rule of degree 2 with four points, on halves of the tet until they say the same to
-//   1e-3, and at least until they are about as small as the grid's cells, or 64.
-// Cost: 12 values for a tet within a cell, 4000 at most.
+//   1e-3, and at least until they are about as small as the grid's cells, or 512.
+// Cost: 12 values for a tet within a cell, some ten thousand at most.
 TetExtinction over_tet(const ExtinctionBand& band, const std::array<Point, 4>& corners);
 // The mean alone by four points, where a guess will do [1/m].
 double rough_mean(const ExtinctionBand& band, const std::array<Point, 4>& corners);
 
 struct SampleOptions {
-    double tolerance = 1e-3;  // of the largest value: what interpolation may be wrong by [-]
-    std::size_t most_points = std::size_t{1} << 21;  // of the grid
+    double tolerance = 3e-4;  // of the largest value: what interpolation may be wrong by [-]
+    std::size_t most_points = std::size_t{1} << 22;  // of the grid
     std::size_t most_cells = 512;                    // along an axis
 };
 

@@ -57,7 +57,8 @@ TEST_CASE("Burns & Christon's cube: flux divergence on the axis", "[solution]") 
     };
     scene.media = {varying(extinction, 0.0)};
     scene.media[0].emission = {1.0 / pi};
-    const Solution solution = solve_adaptively(enclosed(scene), {.error = 0.05});
+    const Solution solution = solve_adaptively(
+        enclosed(scene), {.refinement = Refinement::none, .element_size = 0.25, .gather_rays = 16});
     const Probe probe(solution, {.rays = 4096});
     const double expected[]{3.07561, 2.57196, 2.08181, 1.56180, 0.99443, 0.37165};
     for (int k = 0; k <= 5; ++k) {
@@ -66,8 +67,9 @@ TEST_CASE("Burns & Christon's cube: flux divergence on the axis", "[solution]") 
         const double divergence = extinction(x) * (4.0 - incident);  // κ (4π J_e − G)
         INFO("x = " << x.x << ": " << divergence << ", " << divergence / expected[k] - 1.0
                     << " off");
-        // What 4096 rays leave; J is uniform, so that elements leave nothing.
-        CHECK(divergence == Approx(expected[k]).epsilon(1e-3));
+        // The figures' own last digit, and what 4096 rays leave; J is uniform, so that elements
+        // leave nothing: 2e-5 at most was measured.
+        CHECK(divergence == Approx(expected[k]).epsilon(1e-4));
     }
     // Its integral over the cube is what the walls take in.
     const double lost = solution.report.net_power.at("haze")[0];
@@ -153,8 +155,10 @@ TEST_CASE("Varying media: between plates only the optical depth counts", "[excha
                                [](Point p) { return 3.0 * p.z * p.z; }};
     for (const auto& function : functions) {
         INFO("function " << &function - functions);
-        // The grid's 1e-3 of the largest value, of one sign where κ is convex: 3 h²/6 of ∫κ dz.
-        CHECK(plates(varying(function, 0.5)) == Approx(uniform).epsilon(5e-4));
+        // What is linear is exact but for single precision; of 3 z² the grid's cells of 1/32 m
+        // make h²/2 = 5e-4 too much.
+        CHECK(plates(varying(function, 0.5)) ==
+              Approx(uniform).epsilon(&function - functions < 2 ? 1e-5 : 1e-3));
     }
 }
 

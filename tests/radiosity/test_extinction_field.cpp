@@ -41,7 +41,7 @@ TEST_CASE("Sampled functions: as many cells as the function asks for") {
     const auto of_height = counts([](Point p) { return std::exp(-4.0 * p.z); });
     CHECK(of_height[0] == 2);
     CHECK(of_height[1] == 2);
-    CHECK(of_height[2] == 65);  // h² κ''/8 ≤ 1e-3 of the largest at h = 1/64, not at 1/32
+    CHECK(of_height[2] == 129);  // h² κ''/8 ≤ 3e-4 of the largest at h = 1/128, not at 1/64
     const auto constant = sample_function([](Point) { return 0.3; }, {0, 0, 0}, {1, 1, 1});
     CHECK(constant.uniform);
     CHECK(constant.first == 0.3);
