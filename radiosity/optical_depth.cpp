@@ -69,17 +69,28 @@ void OpticalDepth::find_interfaces() {
         }
 }
 
-void OpticalDepth::operator()(Point x, TetId tet, Direction path, std::span<double> depth) const {
-    if (interfaces_.size() > most_interfaces || (varies_ && !interfaces_.empty()))
-        return walked(x, tet, path, depth);
+void OpticalDepth::add_varying(std::uint32_t medium, Point x, Direction path, double beyond,
+                               double sign, std::span<double> depth) const {
+    if (medium == none) return;
+    const MediumOptics& optics = enclosure_->media[medium];
     const double s = glm::length(path);
-    if (varies_ && s > 0.0) {
-        std::fill(depth.begin(), depth.end(), 0.0);
-        return add_depth(*enclosure_, tet, {x, path / s}, 0.0, s, depth);
-    }
-    const auto here = enclosure_->medium_of(tet);
     for (std::size_t band = 0; band < depth.size(); ++band)
-        depth[band] = s * extinction(here, band);
+        depth[band] += sign * (optics.varying.empty()
+                                   ? beyond * optics.extinction[band]
+                                   : optics.varying[band].depth(x, path / s, s - beyond, s));
+}
+
+void OpticalDepth::operator()(Point x, TetId tet, Direction path, std::span<double> depth) const {
+    if (interfaces_.size() > most_interfaces) return walked(x, tet, path, depth);
+    const double s = glm::length(path);
+    const auto here = enclosure_->medium_of(tet);
+    std::fill(depth.begin(), depth.end(), 0.0);
+    if (s == 0.0) return;
+    if (varies_)
+        add_varying(here, x, path, s, 1.0, depth);
+    else
+        for (std::size_t band = 0; band < depth.size(); ++band)
+            depth[band] = s * extinction(here, band);
     for (const Interface& face : interfaces_) {
         const double start = glm::dot(face.polygon.normal, x) - face.offset;
         const double end = start + glm::dot(face.polygon.normal, path);
@@ -91,6 +102,11 @@ void OpticalDepth::operator()(Point x, TetId tet, Direction path, std::span<doub
         const double beyond = s * (1.0 - std::clamp(start / (start - end), 0.0, 1.0));
         const auto before = from_front ? face.front : face.back;
         const auto after = from_front ? face.back : face.front;
+        if (varies_) {
+            add_varying(after, x, path, beyond, 1.0, depth);
+            add_varying(before, x, path, beyond, -1.0, depth);
+            continue;
+        }
         for (std::size_t band = 0; band < depth.size(); ++band)
             depth[band] += beyond * (extinction(after, band) - extinction(before, band));
     }

@@ -22,8 +22,8 @@ inline void add_depth(const Enclosure& enclosure, TetId tet, const mesh::Ray& ra
 
 // Equation: ∫ κ_t ds = κ_x s + Σ_k (s − s_k) Δκ_k, over the interfaces k that the segment crosses
 //   at distance s_k and where the extinction changes by Δκ_k: no order is needed. Where there are
-//   many interfaces, or where κ_t varies beside another medium, the base tets are walked instead.
-//   Where it varies and all is one medium: the integral of its grid along the segment.
+//   many interfaces, the base tets are walked instead. Where κ_t varies: ∫_0^s κ_x ds' + Σ_k
+//   ∫_{s_k}^s Δκ_k ds', of the media's grids, which go on beyond the interfaces.
 // Cost: one plane test an interface polygon, the grid's cells on the way.
 class OpticalDepth {
   public:
@@ -50,6 +50,9 @@ class OpticalDepth {
         return medium == none ? 0.0 : enclosure_->media[medium].extinction[band];
     }
     bool differ(std::uint32_t a, std::uint32_t b) const;
+    // Adds `sign` times what a medium would make of the last part of a path.
+    void add_varying(std::uint32_t medium, Point x, Direction path, double beyond, double sign,
+                     std::span<double> depth) const;
     void find_interfaces();
 
     const Enclosure* enclosure_;
