@@ -24,7 +24,7 @@ surface  = [ { name = "room", material = "grey", room = { min = [0, 0, 0], max =
 name = "fog"
 albedo = 0.8
 )" + medium +
-           "\n[solve]\nerror = 0.2\nrays = 64\ngather_rays = 64\nmax_elements = 4000\n";
+           "\n[solve]\nrefinement = \"none\"\nrays = 64\ngather_rays = 16\n";
 }
 
 radiosity::Enclosure enclosure_of(const test::Workplace& place, const std::string& medium,
@@ -99,9 +99,9 @@ TEST_CASE("A varying medium is kept in the solution file, and seen from it alone
     const auto read = radiosity::read_solution(place.path / "out" / "solution.vtkhdf");
     const auto made =
         radiosity::make_enclosure(cli::read_scene_file(place.path / "scene.toml").scene);
-    REQUIRE(read.enclosure->media[0].varying.size() == 3);
+    REQUIRE(read.solution.enclosure->media[0].varying.size() == 3);
     for (std::size_t b = 0; b < 3; ++b) {
-        const auto &a = read.enclosure->media[0].varying[b], &c = made.media[0].varying[b];
+        const auto &a = read.solution.enclosure->media[0].varying[b], &c = made.media[0].varying[b];
         CHECK(a.factor == c.factor);
         CHECK(a.shape->counts() == c.shape->counts());
         CHECK(a.shape->values() == c.shape->values());
