@@ -160,8 +160,9 @@ const KeyTable& medium() {
         "[[medium]]",
         {
             {"name", "string", "required", ""},
-            {"extinction", "number [1/m], or one a band", "required; 0 with partial_pressure",
-             "absorption + scattering"},
+            {"extinction", "number [1/m], expression of x, y, z, or one of them a band; or table",
+             "required; 0 with partial_pressure",
+             "absorption + scattering; the same everywhere, or varying in space"},
             {"albedo", "number from 0 to 1, or one a band", "0", "scattering / extinction"},
             {"phase", "table", "isotropic", ""},
             {"emission", "number [W/m²/sr], or one a band", "", "J_e"},
@@ -175,6 +176,20 @@ const KeyTable& medium() {
             {"fills", "\"everywhere\"", "\"everywhere\" without at",
              "every region that is not solid"},
             {"at", "[x, y, z] [m]", "", "instead of fills: the region around this point"},
+        }};
+    return table;
+}
+
+const KeyTable& extinction() {
+    static const KeyTable table{
+        "extinction of a medium, as a table",
+        {
+            {"file", "path", "required",
+             "array [x, y, z] of float32 or float64 in a .npy file, relative to the scene file"},
+            {"min", "[x, y, z] [m]", "required", "place of its first value"},
+            {"max", "[x, y, z] [m]", "required",
+             "place of its last value; beyond there is nothing"},
+            {"scale", "number [1/m], or one a band", "1", "by which the values are multiplied"},
         }};
     return table;
 }

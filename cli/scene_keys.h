@@ -15,6 +15,7 @@ const KeyTable& opening();       // of a rectangle
 const KeyTable& face_opening();  // of a room or box
 const KeyTable& rotate();
 const KeyTable& medium();
+const KeyTable& extinction();  // of a medium, a grid
 const KeyTable& phase();
 const KeyTable& light();
 const KeyTable& sun();

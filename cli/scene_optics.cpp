@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "cli/scene_extinction.h"
 #include "cli/scene_keys.h"
 
 namespace tyndall::cli {
@@ -124,6 +125,11 @@ void add_gases(const TableReader& reader, const radiosity::Scene& scene,
             fmt::format("partial_pressure of {} needs the gases' absorption. Give the scene "
                         "grey_gases = \"file.toml\", or give extinction.",
                         reader.thing()));
+    if (!medium.shape.empty())
+        reader.fail("partial_pressure",
+                    fmt::format("partial_pressure of {} is the same everywhere, its extinction "
+                                "varies in space. Give one of the two, or one number of extinction.",
+                                reader.thing()));
     const double pressure = reader.number("partial_pressure", quantity);
     for (std::size_t b = 1; b < scene.bands; ++b) {
         const double scattering = medium.extinction[b] * medium.albedo[b];
@@ -233,7 +239,8 @@ void read_materials(const TableReader& root, Names& names, radiosity::Scene& sce
     for (std::size_t i = 0; i < readers.size(); ++i) check_back(readers[i], scene.materials, i);
 }
 
-void read_media(const TableReader& root, radiosity::Scene& scene, std::vector<std::string>& notes) {
+void read_media(const TableReader& root, const std::filesystem::path& folder,
+                radiosity::Scene& scene, std::vector<std::string>& notes) {
     Names names("medium");
     const toml::table* everywhere = nullptr;
     std::string name_of_everywhere;
@@ -242,9 +249,10 @@ void read_media(const TableReader& root, radiosity::Scene& scene, std::vector<st
         medium.name = names.take(*table);
         const TableReader reader(*table, keys::medium(), named("medium", medium.name));
         medium.where = reader.where();
-        medium.extinction = reader.has("extinction") || !reader.has("partial_pressure")
-                                ? reader.spectrum("extinction", scene.bands, quantity)
-                                : Spectrum(scene.bands, 0.0);
+        if (reader.has("extinction") || !reader.has("partial_pressure"))
+            read_extinction(reader, folder, scene.bands, medium);
+        else
+            medium.extinction.assign(scene.bands, 0.0);
         medium.albedo = reader.has("albedo") ? reader.spectrum("albedo", scene.bands, fraction)
                                              : Spectrum(scene.bands, 0.0);
         medium.asymmetry = read_phase(reader).value_or(0.0);

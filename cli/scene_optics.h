@@ -1,6 +1,8 @@
 // Materials, media, lights and the environment of a scene file.
 #pragma once
 
+#include <filesystem>
+
 #include "cli/names.h"
 #include "cli/toml_reader.h"
 #include "radiosity/scene.h"
@@ -14,7 +16,9 @@ namespace tyndall::cli {
 // `notes`: temperatures beyond those that weights of grey gases are valid for.
 void read_materials(const TableReader& root, Names& names, radiosity::Scene& scene,
                     std::vector<std::string>& notes);
-void read_media(const TableReader& root, radiosity::Scene& scene, std::vector<std::string>& notes);
+// `folder`: that of the scene file.
+void read_media(const TableReader& root, const std::filesystem::path& folder,
+                radiosity::Scene& scene, std::vector<std::string>& notes);
 void read_lights(const TableReader& root, radiosity::Scene& scene);
 void read_environment(const TableReader& root, radiosity::Scene& scene);
 

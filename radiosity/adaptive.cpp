@@ -285,20 +285,21 @@ void Loop::solve(CoarseSolution& coarse, const LitPatches* lit) {
     const std::size_t bands = enclosure_->bands;
     const Elements& e = coarse.elements();
     incident_direct_.assign(e.size() * bands, 0.0);
-    std::vector<double> measure(e.size(), 0.0);
-    const auto add = [&](auto node, std::uint32_t element, double size) {
-        measure[element] += size;
-        for (std::size_t b = 0; b < bands; ++b)
-            incident_direct_[element * bands + b] += size * direct_.mean(node, b);
+    std::vector<double> measure(e.size() * bands, 0.0);
+    const auto add = [&](auto node, std::uint32_t element) {
+        for (std::size_t b = 0; b < bands; ++b) {
+            const WeighedMean one = leaf_light_.weighed_direct(node, b);
+            measure[element * bands + b] += one.measure;
+            incident_direct_[element * bands + b] += one.measure * one.mean;
+        }
     };
     const Forest& forest = mesh_.forest();
     for (const ZoneId z : mesh_.zones())
-        if (forest.is_leaf(z)) add(z, leaf_light_.element_above(z, e.of_zone), forest.volume(z));
+        if (forest.is_leaf(z)) add(z, leaf_light_.element_above(z, e.of_zone));
     for (const PatchId p : mesh_.patches())
-        if (forest.is_leaf(p)) add(p, leaf_light_.element_above(p, e.of_patch), forest.area(p));
-    for (std::size_t i = 0; i < e.size(); ++i)
-        for (std::size_t b = 0; b < bands; ++b)
-            if (measure[i] > 0.0) incident_direct_[i * bands + b] /= measure[i];
+        if (forest.is_leaf(p)) add(p, leaf_light_.element_above(p, e.of_patch));
+    for (std::size_t k = 0; k < measure.size(); ++k)
+        if (measure[k] > 0.0) incident_direct_[k] /= measure[k];
     if (escaped_direct_.empty())
         escaped_direct_ = escaped_direct(*enclosure_, coarse, 16384, options_.seed);
     direct_power_check_ =
@@ -398,6 +399,7 @@ Solution solve_adaptively(std::shared_ptr<const Enclosure> enclosure, const Solv
     check_smoothing(options.exchange_settings.smoothing, options.row_detail);
     require_settings(exchange_method(options.exchange), options.exchange_settings);
     check_solver(options);
+    require_media(exchange_method(options.exchange), *enclosure);
     check_indicators(options);
     if (passes.begin_with) check_base(*enclosure, passes.begin_with->base);
     std::optional<tbb::global_control> threads;

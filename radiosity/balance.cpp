@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "radiosity/light_sources.h"
+#include "radiosity/optical_depth.h"
 #include "radiosity/point_set.h"
 
 namespace tyndall::radiosity {
@@ -54,8 +55,7 @@ class Escape {
         std::vector<double> depth(enclosure_.bands, 0.0);
         const auto end =
             mesh::walk(enclosure_.mesh, ray, start, [&](TetId tet, double t_in, double t_out) {
-                for (std::size_t b = 0; b < depth.size(); ++b)
-                    depth[b] += enclosure_.extinction(tet, b) * (t_out - t_in);
+                add_depth(enclosure_, tet, ray, t_in, t_out, depth);
                 return true;
             });
         if (end.arrival != mesh::Arrival::left) return;

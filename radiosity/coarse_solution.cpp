@@ -10,13 +10,13 @@
 namespace tyndall::radiosity {
 namespace {
 
-// The function with that gradient and mean whose gradient is shortened until no corner is below 0.
-template <class Corners>
-Affine affine_not_below_0(const Forest& forest, const Corners& corners, double mean,
+// The function with that gradient and with its mean at the node's centre, whose gradient is
+// shortened until no corner is below 0.
+template <class Node>
+Affine affine_not_below_0(const Enclosure& enclosure, const Forest& forest, Node node, double mean,
                           Direction gradient) {
-    Point centre(0.0);
-    for (const VertexId corner : corners) centre += forest.point(corner);
-    centre /= static_cast<double>(corners.size());
+    const auto& corners = forest[node].corners;
+    const Point centre = centre_of(enclosure, forest, node);
     double lowest = 0.0;
     for (const VertexId corner : corners)
         lowest = std::min(lowest, glm::dot(gradient, forest.point(corner) - centre));
@@ -40,6 +40,7 @@ CoarseSolution::CoarseSolution(const Enclosure& enclosure, const Forest& forest,
       settled_(enclosure, forest, elements_) {
     const NamedExchangeMethod& method = exchange_method(options.exchange);
     require_settings(method, options.exchange_settings);
+    require_media(method, enclosure);
     check_solver(options);
     check_solver_size(solver_named(options.solver), elements_.size());
     if (on_the_fly()) at_first_ = forest;
@@ -163,9 +164,9 @@ std::vector<Affine> CoarseSolution::linear_indirect() const {
         for (std::size_t i = 0; i < n; ++i)
             result[i * bands + b] =
                 elements_.is_patch(i)
-                    ? affine_not_below_0(forest_, forest_[elements_.patches[i]].corners, means[i],
+                    ? affine_not_below_0(enclosure_, forest_, elements_.patches[i], means[i],
                                          Direction(of_means[i]))
-                    : affine_not_below_0(forest_, forest_[elements_.zone(i)].corners, means[i],
+                    : affine_not_below_0(enclosure_, forest_, elements_.zone(i), means[i],
                                          Direction(of_means[i]));
     }
     return result;

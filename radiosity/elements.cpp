@@ -25,10 +25,57 @@ std::string name_of(const Enclosure& enclosure, const Forest& forest, const Elem
     return enclosure.media[medium_of(enclosure, forest, elements.zone(element.value))].name;
 }
 
+namespace {
+
+std::array<Point, 4> corners_of(const Forest& forest, ZoneId zone) {
+    std::array<Point, 4> corners;
+    for (int k = 0; k < 4; ++k) corners[k] = forest.point(forest[zone].corners[k]);
+    return corners;
+}
+
+}  // namespace
+
+TetExtinction extinction_in(const Enclosure& enclosure, const Forest& forest, ZoneId zone,
+                            std::size_t band) {
+    const MediumOptics& optics = enclosure.media[medium_of(enclosure, forest, zone)];
+    if (optics.varying.empty()) return {optics.extinction[band], forest.centroid(zone)};
+    return over_tet(optics.varying[band], corners_of(forest, zone));
+}
+
+double rough_extinction(const Enclosure& enclosure, const Forest& forest, ZoneId zone) {
+    const MediumOptics& optics = enclosure.media[medium_of(enclosure, forest, zone)];
+    const bool uniform = optics.varying.empty();
+    double sum = 0.0;
+    for (std::size_t b = 0; b < enclosure.bands; ++b)
+        sum += uniform ? optics.extinction[b]
+                       : rough_mean(optics.varying[b], corners_of(forest, zone));
+    return sum / static_cast<double>(enclosure.bands);
+}
+
+Point centre_of(const Enclosure&, const Forest& forest, PatchId patch) {
+    return forest.centroid(patch);
+}
+
+Point centre_of(const Enclosure& enclosure, const Forest& forest, ZoneId zone) {
+    const MediumOptics& optics = enclosure.media[medium_of(enclosure, forest, zone)];
+    if (optics.varying.empty()) return forest.centroid(zone);
+    const auto& bands = optics.varying;
+    Point sum(0.0);
+    double amount = 0.0;
+    for (std::size_t b = 0; b < bands.size(); ++b) {
+        if (b > 0 && bands[b] == bands[0]) continue;
+        const TetExtinction here = over_tet(bands[b], corners_of(forest, zone));
+        sum += here.mean * here.centre;
+        amount += here.mean;
+    }
+    return amount > 0.0 ? sum / amount : forest.centroid(zone);
+}
+
 std::size_t first_of_extinction(const Enclosure& enclosure, std::size_t band) {
     std::size_t first = 0;
     while (!std::ranges::all_of(enclosure.media, [&](const MediumOptics& m) {
-        return m.extinction[first] == m.extinction[band];
+        return m.extinction[first] == m.extinction[band] &&
+               (m.varying.empty() || m.varying[first] == m.varying[band]);
     }))
         ++first;
     return first;
@@ -57,9 +104,29 @@ void append(Elements& e, const SurfaceSide& side, PatchId patch, double area) {
     append_optics(e, area, nullptr, side.reflectance, side.emission);
 }
 
-void append(Elements& e, const MediumOptics& medium, ZoneId zone, double volume) {
+// `extinction`: its mean over the element.
+void append(Elements& e, const MediumOptics& medium, ZoneId zone, const Spectrum& extinction,
+            double volume) {
     e.zones.push_back(zone);
-    append_optics(e, volume, &medium.extinction, medium.albedo, medium.emission);
+    append_optics(e, volume, &extinction, medium.albedo, medium.emission);
+}
+
+// The mean of kappa_t over zones of one medium.
+Spectrum mean_extinction(const Enclosure& enclosure, const Forest& forest,
+                         std::span<const std::uint32_t> zones) {
+    const MediumOptics& optics = enclosure.media[medium_of(enclosure, forest, ZoneId(zones[0]))];
+    if (optics.varying.empty()) return optics.extinction;
+    Spectrum mean(enclosure.bands, 0.0);
+    double volume = 0.0;
+    for (const auto zone : zones) {
+        const double size = forest.volume(ZoneId(zone));
+        for (std::size_t b = 0; b < mean.size(); ++b)
+            mean[b] += size * extinction_in(enclosure, forest, ZoneId(zone), b).mean;
+        volume += size;
+    }
+    for (std::size_t b = 0; b < mean.size(); ++b)
+        mean[b] = std::max(mean[b] / volume, least_density * optics.extinction[b]);
+    return mean;
 }
 
 Elements without_elements(const Enclosure& enclosure, const Forest& forest) {
@@ -105,7 +172,8 @@ Elements elements_of_leaves(const Enclosure& enclosure, const Forest& forest) {
         if (medium == none) continue;
         each_leaf(forest, ZoneId(t), [&](ZoneId zone) {
             e.of_zone[zone.value] = static_cast<std::uint32_t>(e.size());
-            append(e, enclosure.media[medium], zone, forest.volume(zone));
+            append(e, enclosure.media[medium], zone,
+                   mean_extinction(enclosure, forest, {&zone.value, 1}), forest.volume(zone));
         });
     }
     return e;
@@ -159,7 +227,8 @@ Elements elements_of_clusters(const Enclosure& enclosure, const Forest& forest,
         for (const auto member : members) e.of_zone[member] = static_cast<std::uint32_t>(e.size());
         const double volume =
             append_members(e, members, [&](std::uint32_t z) { return forest.volume(ZoneId(z)); });
-        append(e, enclosure.media[tags.tets[members[0]]], ZoneId(members[0]), volume);
+        append(e, enclosure.media[tags.tets[members[0]]], ZoneId(members[0]),
+               mean_extinction(enclosure, forest, members), volume);
     });
     return e;
 }

@@ -79,6 +79,20 @@ struct OpticalTags {
 std::uint32_t side_of(const Enclosure& enclosure, const Forest& forest, PatchId patch);
 // Medium of a zone; none in empty space and in solids.
 std::uint32_t medium_of(const Enclosure& enclosure, const Forest& forest, ZoneId zone);
+// What an empty zone of a medium whose extinction varies counts, of the medium's mean: nothing that
+// could be seen, and enough for it to have a row, and so a value that gradients beside it can use.
+inline constexpr double least_density = 1e-9;
+
+// kappa_t in a zone of a medium: its mean, and the centre of its distribution, which is the
+// centroid where it is uniform.
+TetExtinction extinction_in(const Enclosure& enclosure, const Forest& forest, ZoneId zone,
+                            std::size_t band);
+// The mean over bands of a zone's kappa_t; by few points, where it varies [1/m].
+double rough_extinction(const Enclosure& enclosure, const Forest& forest, ZoneId zone);
+// Where an element's mean stands: the centroid; of a zone where kappa_t varies, which is met as
+// often as it is dense, the centre of kappa_t, mean over bands.
+Point centre_of(const Enclosure& enclosure, const Forest& forest, PatchId patch);
+Point centre_of(const Enclosure& enclosure, const Forest& forest, ZoneId zone);
 // What messages call an element: the side or medium it belongs to; "outside" for that.
 std::string name_of(const Enclosure& enclosure, const Forest& forest, const Elements& elements,
                     ElementId element);

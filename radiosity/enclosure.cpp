@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "mesh/input_error.h"
+#include "radiosity/medium_optics.h"
 #include "radiosity/own_tetrahedra.h"
 #include "radiosity/steady_state.h"
 
@@ -86,10 +87,11 @@ FacetId wall_at(const BaseMesh& mesh, Point x, double tolerance) {
 class Binder {
   public:
     Binder(const Scene& scene, const Polygons& polygons, const mesh::ConformingComplex& complex,
-           Enclosure& enclosure)
+           const SampleOptions& sampling, Enclosure& enclosure)
         : scene_(scene),
           polygons_(polygons),
           complex_(complex),
+          sampling_(sampling),
           e_(enclosure),
           mesh_(enclosure.mesh) {}
 
@@ -148,34 +150,13 @@ class Binder {
                 if (!next.valid() && !e_.solid(TetId(t))) e_.open = true;
     }
 
-    MediumOptics optics(const Medium& medium) const {
-        MediumOptics result{medium.name, {}, {}, {}, {}};
-        if (!medium.heat.empty() && settles()) result.settled_heat = medium.heat[0];
-        for (std::size_t b = 0; b < e_.bands; ++b) {
-            const double scattering =
-                medium.extinction[b] * medium.albedo[b] * (1.0 - medium.asymmetry);
-            const double absorption = medium.extinction[b] * (1.0 - medium.albedo[b]);
-            const double extinction = absorption + scattering;
-            const double albedo = extinction > 0.0 ? scattering / extinction : 0.0;
-            const bool heated = !medium.heat.empty() && !settles();
-            result.extinction.push_back(extinction);
-            result.absorption.push_back(absorption);
-            result.albedo.push_back(heated ? 1.0 : albedo);
-            double emission = medium.emission.empty() ? 0.0 : (1.0 - albedo) * medium.emission[b];
-            if (heated && extinction > 0.0)
-                emission = medium.heat[b] / (4.0 * std::numbers::pi * extinction);
-            result.emission.push_back(emission);
-        }
-        return result;
-    }
-
     void fill_media() {
         e_.region_medium.assign(mesh_.region_count, none);
         std::vector<std::size_t> claimed(mesh_.region_count, scene_.media.size());
         const double tolerance = 1e-9 * glm::distance(mesh_.hull_min, mesh_.hull_max);
         for (std::size_t m = 0; m < scene_.media.size(); ++m) {
             const Medium& medium = scene_.media[m];
-            e_.media.push_back(optics(medium));
+            e_.media.push_back(medium_optics(medium, e_));
             if (!medium.at) continue;
             const Point x = *medium.at;
             const RegionId region = region_at(mesh_, x);
@@ -202,6 +183,7 @@ class Binder {
             for (std::size_t r = 0; r < mesh_.region_count; ++r)
                 if (claimed[r] == scene_.media.size() && !scene_.media[m].at && !e_.region_solid[r])
                     claimed[r] = m;
+        bind_varying(scene_, claimed, sampling_, e_);
         for (std::size_t r = 0; r < mesh_.region_count; ++r) {
             if (claimed[r] == scene_.media.size()) continue;
             const auto& extinction = e_.media[claimed[r]].extinction;
@@ -217,11 +199,8 @@ class Binder {
         return fmt::format(" (\"{}\")", scene_.surfaces[polygons_.surface[polygons[0].value]].name);
     }
 
-    // Whether heat and flux are those of all bands together.
-    bool settles() const { return e_.bands > 1 && !e_.spectral.empty(); }
-
     void prescribe(const Spectrum& flux, SurfaceSide& side) const {
-        if (settles()) {
+        if (e_.settles()) {
             side.settled_flux = flux[0];
             return;
         }
@@ -308,6 +287,7 @@ class Binder {
     const Scene& scene_;
     const Polygons& polygons_;
     const mesh::ConformingComplex& complex_;
+    const SampleOptions& sampling_;
     Enclosure& e_;
     const BaseMesh& mesh_;
     std::vector<std::uint32_t> indices_;      // 2 × surface + back → side
@@ -349,7 +329,7 @@ Enclosure make_enclosure(const Scene& scene, const EnclosureOptions& options) {
     enclosure.lights = scene.lights;
     enclosure.environment =
         scene.environment.empty() ? Spectrum(scene.bands, 0.0) : scene.environment;
-    Binder(scene, polygons, complex, enclosure).bind();
+    Binder(scene, polygons, complex, options.extinction, enclosure).bind();
     refuse_unsteady(scene, enclosure);
     if (own) note_own_tetrahedra(fitted, options.tetrahedra.string(), enclosure);
     for (const Medium& medium : scene.media)

@@ -10,6 +10,7 @@
 #include "mesh/base_mesh.h"
 #include "mesh/conform.h"
 #include "mesh/tetrahedralize.h"
+#include "radiosity/extinction_field.h"
 #include "radiosity/scene.h"
 
 namespace tyndall::radiosity {
@@ -37,13 +38,15 @@ struct SurfaceSide {
 // A medium as it is solved: isotropic, with the reduced coefficients of an anisotropic one.
 struct MediumOptics {
     std::string name;
-    Spectrum extinction;  // kappa_t [1/m]
+    Spectrum extinction;  // kappa_t; its mean over the medium where it varies [1/m]
     Spectrum albedo;      // a of the one equation: Omega, or 1 where heat is given [-]
     // e of the one equation: (1−Omega) J_e, or Q/(4 kappa_t), times 1/pi [W/m^2/sr]
     Spectrum emission;
-    Spectrum absorption;  // kappa_a [1/m]
+    Spectrum absorption;  // kappa_a, likewise [1/m]
     // Q of all bands together, as SurfaceSide::settled_flux [W/m^3].
     std::optional<double> settled_heat{};
+    // kappa_t of every band where it varies in space; empty: it is uniform.
+    std::vector<ExtinctionBand> varying{};
 };
 
 inline constexpr std::uint32_t none = 0xffffffffu;
@@ -67,15 +70,25 @@ struct Enclosure {
     SpectralModel spectral{};  // what the bands are
     bool thermal = false;      // temperatures are found
 
+    // Whether given heat and flux are those of all bands together.
+    bool settles() const { return bands > 1 && !spectral.empty(); }
     std::uint32_t medium_of(TetId tet) const {
         return region_medium[mesh.regions[tet.value].value];
     }
     bool solid(TetId tet) const { return region_solid[mesh.regions[tet.value].value]; }
-    // kappa_t of a base tet, 0 in empty space [1/m].
+    // kappa_t of a base tet, 0 in empty space; the medium's mean where `varying` [1/m].
     double extinction(TetId tet, std::size_t band) const {
         const auto medium = medium_of(tet);
         return medium == none ? 0.0 : media[medium].extinction[band];
     }
+    // kappa_t of the tet's medium where it varies in space; null: it does not.
+    const ExtinctionBand* varying(TetId tet, std::size_t band) const {
+        const auto medium = medium_of(tet);
+        return medium == none || media[medium].varying.empty() ? nullptr
+                                                               : &media[medium].varying[band];
+    }
+    // Whether kappa_t of any medium varies in space.
+    bool varies() const;
 };
 
 struct EnclosureOptions {
@@ -83,6 +96,7 @@ struct EnclosureOptions {
     mesh::TetrahedralizeOptions tetrahedralize{};
     // The user's own tetrahedra (mesh/tet_file.h) in place of TetGen's; empty: none.
     std::filesystem::path tetrahedra{};
+    SampleOptions extinction{};  // how functions of space are sampled
 };
 
 // Whether direct light may count what a side emits in closed form: a sink (a negative flux) cannot
@@ -93,7 +107,8 @@ bool shines(const SurfaceSide& side);
 // Errors: mesh::InputError with file:line:column (Scene's `where`) and name: what cannot be meshed;
 //   a medium point in no region, on a wall or outside; two media that claim one region; a power on
 //   a surface without area; a closed region with a source, a flux or heat, but no absorption and no
-//   opening; a file of tetrahedra that cannot be read or does not follow the surfaces.
+//   opening; a file of tetrahedra that cannot be read or does not follow the surfaces; an extinction
+//   below 0 or not finite somewhere, or one that varies beside a heat source.
 // Cost: dominated by CGAL and TetGen; about 1 s for a thousand facets.
 Enclosure make_enclosure(const Scene& scene, const EnclosureOptions& options = {});
 

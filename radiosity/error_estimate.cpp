@@ -34,21 +34,23 @@ std::vector<double> level_difference(const ElementMesh& mesh, DirectRefiner& dir
                                      const Fields& gathered) {
     const Elements& e = coarse.elements();
     const Forest& forest = mesh.forest();
-    std::vector<double> sum(e.size() * e.bands, 0.0), measure(e.size(), 0.0);
-    const auto add = [&](auto leaf, std::uint32_t element, double size) {
-        measure[element] += size;
-        for (std::size_t b = 0; b < e.bands; ++b)
-            sum[element * e.bands + b] += size * (gathered.at(leaf, b).at(forest.centroid(leaf)) -
-                                                  direct.mean_difference(leaf, b));
+    std::vector<double> sum(e.size() * e.bands, 0.0), measure(e.size() * e.bands, 0.0);
+    const auto add = [&](auto leaf, std::uint32_t element) {
+        for (std::size_t b = 0; b < e.bands; ++b) {
+            const WeighedMean one = leaf_light.weighed(leaf, b, gathered.at(leaf, b));
+            measure[element * e.bands + b] += one.measure;
+            sum[element * e.bands + b] +=
+                one.measure * (one.mean - direct.mean_difference(leaf, b));
+        }
     };
     for (const ZoneId z : mesh.zones())
-        if (forest.is_leaf(z)) add(z, leaf_light.element_above(z, e.of_zone), forest.volume(z));
+        if (forest.is_leaf(z)) add(z, leaf_light.element_above(z, e.of_zone));
     for (const PatchId p : mesh.patches())
-        if (forest.is_leaf(p)) add(p, leaf_light.element_above(p, e.of_patch), forest.area(p));
+        if (forest.is_leaf(p)) add(p, leaf_light.element_above(p, e.of_patch));
     for (std::size_t i = 0; i < e.size(); ++i)
         for (std::size_t b = 0; b < e.bands; ++b) {
-            double& value = sum[i * e.bands + b];
-            value = measure[i] > 0.0 ? coarse.indirect(i, b) - value / measure[i] : 0.0;
+            const std::size_t k = i * e.bands + b;
+            sum[k] = measure[k] > 0.0 ? coarse.indirect(i, b) - sum[k] / measure[k] : 0.0;
         }
     return sum;
 }
@@ -149,7 +151,8 @@ void estimate_errors(const LeafErrors& errors, const std::optional<View>& view, 
         s.zone_error[z] = static_cast<float>(leaf_error(s, errors, zone, departure));
         for (std::size_t b = 0; b < enclosure.bands; ++b)
             sums.add(s, errors, zone, departure, 0.0,
-                     4.0 * enclosure.media[medium].extinction[b] * s.forest.volume(zone), b);
+                     4.0 * extinction_in(enclosure, s.forest, zone, b).mean * s.forest.volume(zone),
+                     b);
     }
     for (std::size_t p = 0; p < s.forest.patch_count(); ++p) {
         const PatchId patch(p);

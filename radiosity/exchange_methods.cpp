@@ -21,6 +21,7 @@ namespace {
 constexpr NamedExchangeMethod methods[]{
     {.name = "walked",
      .method = exchange_walked,
+     .varying = true,
      .walks = true,
      .moments = true,
      .detail = true,
@@ -61,6 +62,20 @@ void refuse_pair(const Discretization& d, std::string_view method, ElementId i, 
     const auto name = [&](ElementId id) { return name_of(d.enclosure, d.forest, d.elements, id); };
     throw mesh::InputError(fmt::format("{} cannot do the pair {}, {}: {}. Those that can: {}.",
                                        method, name(i), name(j), why, fmt::join(able, ", ")));
+}
+
+void require_media(const NamedExchangeMethod& method, const Enclosure& enclosure) {
+    if (method.varying) return;
+    const auto medium = std::ranges::find_if(
+        enclosure.media, [](const MediumOptics& m) { return !m.varying.empty(); });
+    if (medium == enclosure.media.end()) return;
+    std::vector<std::string_view> names;
+    for (const auto& other : methods)
+        if (other.varying) names.push_back(other.name);
+    throw mesh::InputError(fmt::format(
+        "exchange method \"{}\" needs one extinction a medium; that of \"{}\" varies in space. Set "
+        "exchange to {}.",
+        method.name, medium->name, fmt::join(names, " or ")));
 }
 
 void require_settings(const NamedExchangeMethod& method, const ExchangeSettings& settings) {

@@ -13,6 +13,7 @@ struct NamedExchangeMethod {
     bool zones = true;      // can: pairs with zones
     bool occlusion = true;  //   pairs with something in the way
     bool media = true;      //   patches with a medium between them
+    bool varying = false;   //   media whose extinction varies in space
     bool walks = false;     // makes rows of ExchangeOptions::rays rays
     bool moments = false;   //   first moments, so that elements hold linear functions
     bool detail = false;    //   deposits in coarser elements (ExchangeOptions::detail)
@@ -30,6 +31,10 @@ const NamedExchangeMethod& exchange_method(std::string_view name);
 [[noreturn]] void refuse_pair(const Discretization& d, std::string_view method, ElementId i,
                               ElementId j, std::string_view why,
                               bool NamedExchangeMethod::*ability);
+
+// Errors: mesh::InputError if the extinction of a medium varies in space, and the method needs one
+// that does not; it names those that do not need it.
+void require_media(const NamedExchangeMethod& method, const Enclosure& enclosure);
 
 // Errors: mesh::InputError if the settings ask for what the method does not know.
 void require_settings(const NamedExchangeMethod& method, const ExchangeSettings& settings);

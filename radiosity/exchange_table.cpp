@@ -229,6 +229,7 @@ ExchangeTable exchange_table(const Enclosure& enclosure, const NamedExchangeMeth
                              const ExchangeOptions& options, const std::vector<std::string>& from,
                              const std::vector<std::string>& to) {
     require_settings(method, options.settings);
+    require_media(method, enclosure);
     return Table(enclosure, method, options).make(from, to);
 }
 

@@ -15,6 +15,7 @@ namespace {
 struct RayStart {
     mesh::Ray ray;
     mesh::WalkStart at;
+    double weight = 1.0;  // what the ray counts beside the element's others
 };
 
 // Sums of shares, and with their places: (share, share × place from the hull's middle).
@@ -32,18 +33,21 @@ class Walker {
                      std::sqrt(4.0 * std::numbers::pi / static_cast<double>(points.size()))),
           middle_(0.5 * (d.enclosure.mesh.hull_min + d.enclosure.mesh.hull_max)) {
         if (options.radiance == Radiance::constant) return;
-        for (const PatchId patch : d.elements.patches) centres_.push_back(d.forest.centroid(patch));
-        for (const ZoneId zone : d.elements.zones) centres_.push_back(d.forest.centroid(zone));
+        for (const PatchId patch : d.elements.patches)
+            centres_.push_back(centre_of(d.enclosure, d.forest, patch));
+        for (const ZoneId zone : d.elements.zones)
+            centres_.push_back(centre_of(d.enclosure, d.forest, zone));
         centres_.push_back(middle_);  // outside
     }
 
     void row(ElementId id, Shares& sums, FinishedRows& rows) const {
         double kept = 0.0;
-        follow(id.value, [&](const mesh::Ray&, std::uint32_t column, double share, double) {
-            sums.add(column, share);
-            kept += share;
-        });
-        const double scale = scale_of(id.value, kept);
+        const double count =
+            follow(id.value, [&](const mesh::Ray&, std::uint32_t column, double share, double) {
+                sums.add(column, share);
+                kept += share;
+            });
+        const double scale = scale_of(id.value, kept, count);
         if (scale == 0.0 && capacity(id.value) > 0.0) add_itself(id.value, rows);
         sums.take([&](std::uint32_t column, double sum) {
             if (!(sum > 0.0)) return;  // nothing was left when the ray came there
@@ -55,12 +59,13 @@ class Walker {
 
     void row(ElementId id, PlacedShares& sums, FinishedRows& rows) const {
         double kept = 0.0;
-        follow(id.value, [&](const mesh::Ray& ray, std::uint32_t column, double share, double at) {
-            const Point place = ray.origin - middle_ + at * ray.direction;
-            sums.add(column, share * glm::dvec4(1.0, place));
-            kept += share;
-        });
-        const double scale = scale_of(id.value, kept);
+        const double count = follow(
+            id.value, [&](const mesh::Ray& ray, std::uint32_t column, double share, double at) {
+                const Point place = ray.origin - middle_ + at * ray.direction;
+                sums.add(column, share * glm::dvec4(1.0, place));
+                kept += share;
+            });
+        const double scale = scale_of(id.value, kept, count);
         if (scale == 0.0 && capacity(id.value) > 0.0) add_itself(id.value, rows);
         sums.take([&](std::uint32_t column, const glm::dvec4& sum) {
             if (!(sum.x > 0.0)) return;
@@ -75,20 +80,24 @@ class Walker {
   private:
     using Numbers = std::array<double, point_set_dimensions>;
 
-    // deposit(ray, column, share, distance) for all the rays of an element.
+    // deposit(ray, column, share, distance) for all the rays of an element. Returns the sum of
+    // their weights.
     template <class Deposit>
-    void follow(std::size_t i, Deposit&& deposit) const {
+    double follow(std::size_t i, Deposit&& deposit) const {
         const std::uint64_t seed = hash_seed(options_.seed, i);
         RayStart start;
+        double count = 0.0;
         RowWalk walk(scene_, [&](std::uint32_t column, double share, double distance) {
-            deposit(start.ray, column, share, distance);
+            deposit(start.ray, column, start.weight * share, distance);
         });
         for (std::size_t k = 0; k < points_.size(); ++k) {
             start = start_of(i, points_(k, seed));
+            count += start.weight;
             if (radius() > 0.0) start.ray.length = radius();
             const auto arrival = walk.follow(start.ray, start.at);
             if (arrival == mesh::Arrival::lost && options_.lost_rays) ++*options_.lost_rays;
         }
+        return count;
     }
 
     double radius() const { return options_.settings.interaction_radius; }
@@ -97,14 +106,15 @@ class Walker {
         return d_.elements.capacity[i * d_.elements.bands + options_.band];
     }
 
-    // What a share counts [m^2]; `kept`: shares of all rays that were deposited. What gets beyond
-    // the radius counts as if it were spread like the rest.
-    double scale_of(std::size_t i, double kept) const {
+    // What a share counts [m^2]; `kept`: shares of all rays that were deposited, `count` their
+    // weights. What gets beyond the radius counts as if it were spread like the rest.
+    double scale_of(std::size_t i, double kept, double count) const {
         if (radius() > 0.0) return kept > 0.0 ? capacity(i) / kept : 0.0;
-        return capacity(i) / static_cast<double>(points_.size());
+        return count > 0.0 ? capacity(i) / count : 0.0;
     }
 
-    // Nothing within the radius: what is beyond is taken to shine as the element itself.
+    // Nothing within the radius, or nothing where rays start: what is beyond is taken to shine as
+    // the element itself.
     void add_itself(std::size_t i, FinishedRows& rows) const {
         rows.columns.push_back(static_cast<std::uint32_t>(i));
         rows.values.push_back(capacity(i));
@@ -137,7 +147,14 @@ class Walker {
         ray.origin = Point(0.0);
         for (int k = 0; k < 4; ++k) ray.origin += w[k] * forest.point(c[k]);
         ray.direction = uniform_direction(u[3], u[4]);
-        return {ray, {forest.base_tet(zone)}};
+        const TetId tet = forest.base_tet(zone);
+        // Origins are uniform, and count as much as they are dense: as if distributed as κ.
+        const ExtinctionBand* varying = d_.enclosure.varying(tet, options_.band);
+        return {ray,
+                {tet},
+                varying ? std::max(varying->at(ray.origin),
+                                   least_density * d_.enclosure.extinction(tet, options_.band))
+                        : 1.0};
     }
 
     const Discretization& d_;

@@ -36,6 +36,9 @@ GatherScene::GatherScene(const Enclosure& enclosure, const Forest& forest, const
         for (std::size_t b = 0; b < enclosure.bands; ++b)
             extinction_.push_back(
                 float(enclosure.solid(TetId(t)) ? 0.0 : enclosure.extinction(TetId(t), b)));
+    if (!enclosure.varies()) return;
+    for (std::size_t t = 0; t < enclosure.mesh.tets.size(); ++t)
+        varying_.push_back(enclosure.solid(TetId(t)) ? nullptr : enclosure.varying(TetId(t), 0));
 }
 
 // One ray's way through the packed trees.
@@ -45,6 +48,7 @@ class RadianceWalk {
                  std::span<float> transmittance)
         : s_(scene),
           bands_(radiance.size()),
+          ray_(ray),
           origin_{float(ray.origin.x), float(ray.origin.y), float(ray.origin.z)},
           direction_{float(ray.direction.x), float(ray.direction.y), float(ray.direction.z)},
           radiance_(radiance),
@@ -54,6 +58,7 @@ class RadianceWalk {
     bool cross(TetId tet, float t_in, float t_out) {
         const float* extinction = &s_.extinction_[tet.value * bands_];
         if (!(*std::max_element(extinction, extinction + bands_) > 0.0f)) return true;
+        varying_ = s_.varying_.empty() ? nullptr : s_.varying_[tet.value];
         struct Pending {
             std::uint32_t zone;
             float t_out;
@@ -100,11 +105,15 @@ class RadianceWalk {
     // `least`: below which J is not taken.
     bool gain(std::uint32_t zone, const float* extinction, float t_in, float t_out, float least) {
         float most = 0.0f;
+        SegmentWeights w{};
         for (std::size_t b = 0; b < bands_; ++b) {
             const GatherScene::Source& source = s_.sources_[zone * bands_ + b];
             const float start = dot(source.gradient, origin_) + source.constant;
             const float slope = dot(source.gradient, direction_);
-            const SegmentWeights w = segment_weights(extinction[b] * (t_out - t_in));
+            if (!varying_)
+                w = segment_weights(extinction[b] * (t_out - t_in));
+            else if (b == 0 || !(varying_[b] == varying_[b - 1]))
+                w = varying_[b].weights(ray_.origin, ray_.direction, t_in, t_out);
             float& transmittance = transmittance_[b];
             radiance_[b] += transmittance * (w.front * std::max(least, start + t_in * slope) +
                                              w.back * std::max(least, start + t_out * slope));
@@ -116,6 +125,8 @@ class RadianceWalk {
 
     const GatherScene& s_;
     std::size_t bands_;
+    const mesh::Ray& ray_;
+    const ExtinctionBand* varying_ = nullptr;  // of the first band, in the tet that is crossed
     float origin_[3], direction_[3];
     std::span<double> radiance_;
     std::span<float> transmittance_;

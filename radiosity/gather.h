@@ -51,6 +51,9 @@ class GatherScene {
     std::vector<Source> sources_;    // of zones, [node * bands + band]
     std::vector<Affine> patches_;    // of patches, [node * bands + band]
     std::vector<float> extinction_;  // of base tets, [tet * bands + band] [1/m]
+    // Of base tets, that of the first band, others follow; null where it is uniform. Empty where it
+    // is so everywhere.
+    std::vector<const ExtinctionBand*> varying_;
     float detail_;
 
     friend void radiance_along(const GatherScene&, const mesh::Ray&, mesh::WalkStart,

@@ -92,8 +92,9 @@ ElementGradients::ElementGradients(const Enclosure& enclosure, const Forest& for
                                    const Elements& elements) {
     const Corners corners(enclosure, forest, elements);
     std::vector<Point> centres;
-    for (const PatchId patch : elements.patches) centres.push_back(forest.centroid(patch));
-    for (const ZoneId zone : elements.zones) centres.push_back(forest.centroid(zone));
+    for (const PatchId patch : elements.patches)
+        centres.push_back(centre_of(enclosure, forest, patch));
+    for (const ZoneId zone : elements.zones) centres.push_back(centre_of(enclosure, forest, zone));
     starts_.push_back(0);
     std::vector<std::uint32_t> neighbours;
     for (std::size_t i = 0; i < elements.size(); ++i) {

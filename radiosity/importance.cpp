@@ -25,7 +25,7 @@ Importance::Importance(const Enclosure& enclosure, const Forest& forest,
     for (std::size_t t = 0; t < enclosure.mesh.tets.size(); ++t)
         if (const auto m = medium_of(enclosure, forest, ZoneId(t)); m != none)
             capacity +=
-                4.0 * mean_over_bands(enclosure.media[m].extinction) * forest.volume(ZoneId(t));
+                4.0 * rough_extinction(enclosure, forest, ZoneId(t)) * forest.volume(ZoneId(t));
     if (scale.solution > 0.0 && capacity > 0.0)
         solution_factor_ = 1.0 / (capacity * scale.solution);
     if (view_ && scale.picture > 0.0) {
@@ -50,7 +50,7 @@ bool Importance::in_view(Point centre, double radius) const {
 double Importance::of(ZoneId zone) const {
     const auto medium = medium_of(enclosure_, forest_, zone);
     if (medium == none) return 0.0;
-    const double extinction = mean_over_bands(enclosure_.media[medium].extinction);
+    const double extinction = rough_extinction(enclosure_, forest_, zone);
     const double volume = forest_.volume(zone);
     double weight = solution_factor_ * 4.0 * extinction * volume;
     if (picture_factor_ > 0.0) {

@@ -20,15 +20,22 @@ std::vector<std::pair<Receiver, double>> quadrature(const Enclosure& enclosure,
     return points;
 }
 
-std::vector<std::pair<Receiver, double>> quadrature(const Enclosure&, const Forest& forest,
-                                                    ZoneId zone) {
+std::vector<std::pair<Receiver, double>> quadrature(const Enclosure& enclosure,
+                                                    const Forest& forest, ZoneId zone) {
     constexpr double towards_corner = 0.4472135954999579;  // 1/√5
+    const MediumOptics& optics = enclosure.media[medium_of(enclosure, forest, zone)];
     std::vector<std::pair<Receiver, double>> points;
     for (const VertexId corner : forest[zone].corners) {
         const Point centre = forest.centroid(zone);
-        points.push_back(
-            {{centre + towards_corner * (forest.point(corner) - centre), forest.base_tet(zone)},
-             forest.volume(zone) / 4.0});
+        const Point x = centre + towards_corner * (forest.point(corner) - centre);
+        double size = forest.volume(zone) / 4.0;
+        if (!optics.varying.empty()) {
+            // A zone is met as often as it is dense.
+            double density = least_density * optics.extinction[0] + 1e-300;
+            for (const ExtinctionBand& band : optics.varying) density += band.at(x);
+            size *= density;
+        }
+        points.push_back({{x, forest.base_tet(zone)}, size});
     }
     return points;
 }

@@ -114,14 +114,15 @@ double jump_error(const JudgedElement& element) {
 double thickness_error(const JudgedElement& element) {
     const auto* zone = std::get_if<ZoneId>(&element.node);
     if (!zone) return 0.0;
-    const auto medium = medium_of(element.enclosure, element.forest, *zone);
-    const auto& extinction = element.enclosure.media[medium].extinction;
+    const std::size_t bands = element.enclosure.bands;
     const double size = std::cbrt(element.forest.volume(*zone));
     double sum = 0.0;
-    for (std::size_t b = 0; b < extinction.size(); ++b)
-        sum -= std::expm1(-thick_rate * extinction[b] * size) * size *
+    for (std::size_t b = 0; b < bands; ++b) {
+        const double extinction = extinction_in(element.enclosure, element.forest, *zone, b).mean;
+        sum -= std::expm1(-thick_rate * extinction * size) * size *
                glm::length(element.radiance.at(*zone, b).gradient);  // (28)
-    return sum / static_cast<double>(extinction.size());
+    }
+    return sum / static_cast<double>(bands);
 }
 
 const std::vector<NamedIndicator>& indicators() {

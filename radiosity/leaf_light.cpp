@@ -1,5 +1,7 @@
 #include "radiosity/leaf_light.h"
 
+#include <algorithm>
+
 namespace tyndall::radiosity {
 
 template <class Node>
@@ -17,6 +19,27 @@ Affine LeafLight::direct(Node node, std::size_t band) {
 
 template Affine LeafLight::direct(ZoneId, std::size_t);
 template Affine LeafLight::direct(PatchId, std::size_t);
+
+WeighedMean LeafLight::weighed(PatchId leaf, std::size_t, const Affine& function) const {
+    const Forest& forest = mesh_.forest();
+    return {forest.area(leaf), function.at(forest.centroid(leaf))};
+}
+
+WeighedMean LeafLight::weighed(ZoneId leaf, std::size_t band, const Affine& function) const {
+    const Forest& forest = mesh_.forest();
+    const double volume = forest.volume(leaf);
+    const MediumOptics& optics = enclosure_.media[medium_of(enclosure_, forest, leaf)];
+    if (optics.varying.empty()) return {volume, function.at(forest.centroid(leaf))};
+    const auto [mean, centre] = extinction_in(enclosure_, forest, leaf, band);
+    return {std::max(mean, least_density * optics.extinction[band]) * volume, function.at(centre)};
+}
+
+WeighedMean LeafLight::weighed_direct(ZoneId leaf, std::size_t band) {
+    const Forest& forest = mesh_.forest();
+    if (enclosure_.media[medium_of(enclosure_, forest, leaf)].varying.empty())
+        return {forest.volume(leaf), direct_.mean(leaf, band)};
+    return weighed(leaf, band, direct_with_mean(leaf, band));
+}
 
 LitPatches LeafLight::lit_patches() {
     const Forest& forest = mesh_.forest();

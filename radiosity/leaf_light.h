@@ -6,6 +6,13 @@
 
 namespace tyndall::radiosity {
 
+// A mean over a leaf and what it counts in that of a coarser element: area, volume, or ∫ κ dV in
+// place of volume where κ varies.
+struct WeighedMean {
+    double measure = 0.0;  // [m^2], [m^3] or [m^2]
+    double mean = 0.0;
+};
+
 // Joins the direct light of the leaves with the indirect light of coarser elements. Keeps
 // references to its arguments. Not thread-safe: samples are made on demand.
 class LeafLight {
@@ -22,6 +29,15 @@ class LeafLight {
         return with_mean(direct(leaf, band), mesh_.forest().centroid(leaf),
                          direct_.mean(leaf, band));
     }
+
+    // The mean of H^A over a leaf as an element's capacity weighs it: with κ where that varies.
+    WeighedMean weighed_direct(PatchId leaf, std::size_t band) {
+        return {mesh_.forest().area(leaf), direct_.mean(leaf, band)};
+    }
+    WeighedMean weighed_direct(ZoneId leaf, std::size_t band);
+    // The same of any function on leaves, of which `band` is to be weighed.
+    WeighedMean weighed(PatchId leaf, std::size_t band, const Affine& function) const;
+    WeighedMean weighed(ZoneId leaf, std::size_t band, const Affine& function) const;
 
     // What patches reflect of direct light.
     LitPatches lit_patches();

@@ -26,7 +26,7 @@ bool passes(Point x, Direction path, const mesh::ConvexPolygon& polygon) {
 }  // namespace
 
 OpticalDepth::OpticalDepth(const Enclosure& enclosure, double tolerance)
-    : enclosure_(&enclosure), tolerance_(tolerance) {
+    : enclosure_(&enclosure), tolerance_(tolerance), varies_(enclosure.varies()) {
     for (std::size_t r = 0; r < enclosure.mesh.region_count; ++r)
         if (!enclosure.region_solid[r] && differ(enclosure.region_medium[r], none))
             transparent_ = false;
@@ -34,6 +34,10 @@ OpticalDepth::OpticalDepth(const Enclosure& enclosure, double tolerance)
 }
 
 bool OpticalDepth::differ(std::uint32_t a, std::uint32_t b) const {
+    const auto varies = [&](std::uint32_t m) {
+        return m != none && !enclosure_->media[m].varying.empty();
+    };
+    if (a != b && (varies(a) || varies(b))) return true;
     for (std::size_t band = 0; band < enclosure_->bands; ++band)
         if (extinction(a, band) != extinction(b, band)) return true;
     return false;
@@ -65,12 +69,28 @@ void OpticalDepth::find_interfaces() {
         }
 }
 
+void OpticalDepth::add_varying(std::uint32_t medium, Point x, Direction path, double beyond,
+                               double sign, std::span<double> depth) const {
+    if (medium == none) return;
+    const MediumOptics& optics = enclosure_->media[medium];
+    const double s = glm::length(path);
+    for (std::size_t band = 0; band < depth.size(); ++band)
+        depth[band] += sign * (optics.varying.empty()
+                                   ? beyond * optics.extinction[band]
+                                   : optics.varying[band].depth(x, path / s, s - beyond, s));
+}
+
 void OpticalDepth::operator()(Point x, TetId tet, Direction path, std::span<double> depth) const {
     if (interfaces_.size() > most_interfaces) return walked(x, tet, path, depth);
     const double s = glm::length(path);
     const auto here = enclosure_->medium_of(tet);
-    for (std::size_t band = 0; band < depth.size(); ++band)
-        depth[band] = s * extinction(here, band);
+    std::fill(depth.begin(), depth.end(), 0.0);
+    if (s == 0.0) return;
+    if (varies_)
+        add_varying(here, x, path, s, 1.0, depth);
+    else
+        for (std::size_t band = 0; band < depth.size(); ++band)
+            depth[band] = s * extinction(here, band);
     for (const Interface& face : interfaces_) {
         const double start = glm::dot(face.polygon.normal, x) - face.offset;
         const double end = start + glm::dot(face.polygon.normal, path);
@@ -82,6 +102,11 @@ void OpticalDepth::operator()(Point x, TetId tet, Direction path, std::span<doub
         const double beyond = s * (1.0 - std::clamp(start / (start - end), 0.0, 1.0));
         const auto before = from_front ? face.front : face.back;
         const auto after = from_front ? face.back : face.front;
+        if (varies_) {
+            add_varying(after, x, path, beyond, 1.0, depth);
+            add_varying(before, x, path, beyond, -1.0, depth);
+            continue;
+        }
         for (std::size_t band = 0; band < depth.size(); ++band)
             depth[band] += beyond * (extinction(after, band) - extinction(before, band));
     }
@@ -93,9 +118,9 @@ void OpticalDepth::walked(Point x, TetId tet, Direction path, std::span<double> 
     std::fill(depth.begin(), depth.end(), 0.0);
     const double s = glm::length(path);
     if (s == 0.0) return;
-    mesh::walk(enclosure_->mesh, {x, path / s, s}, {tet}, [&](TetId at, double in, double out) {
-        for (std::size_t band = 0; band < depth.size(); ++band)
-            depth[band] += (out - in) * enclosure_->extinction(at, band);
+    const mesh::Ray ray{x, path / s, s};
+    mesh::walk(enclosure_->mesh, ray, {tet}, [&](TetId at, double in, double out) {
+        add_depth(*enclosure_, at, ray, in, out, depth);
         return true;
     });
 }

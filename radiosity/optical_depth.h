@@ -5,15 +5,26 @@
 #include <vector>
 
 #include "mesh/convex_merge.h"
+#include "mesh/walk.h"
 #include "radiosity/enclosure.h"
 
 namespace tyndall::radiosity {
 
+// Adds the optical depth of the ray's segment within a base tet; one value a band [-].
+inline void add_depth(const Enclosure& enclosure, TetId tet, const mesh::Ray& ray, double t_in,
+                      double t_out, std::span<double> depth) {
+    for (std::size_t band = 0; band < depth.size(); ++band) {
+        const ExtinctionBand* varying = enclosure.varying(tet, band);
+        depth[band] += varying ? varying->depth(ray.origin, ray.direction, t_in, t_out)
+                               : (t_out - t_in) * enclosure.extinction(tet, band);
+    }
+}
+
 // Equation: ∫ κ_t ds = κ_x s + Σ_k (s − s_k) Δκ_k, over the interfaces k that the segment crosses
 //   at distance s_k and where the extinction changes by Δκ_k: no order is needed. Where there are
-//   many interfaces, the base tets are walked instead.
-// Valid for: media homogeneous in each region.
-// Cost: one plane test an interface polygon; nothing where all is one medium.
+//   many interfaces, the base tets are walked instead. Where κ_t varies: ∫_0^s κ_x ds' + Σ_k
+//   ∫_{s_k}^s Δκ_k ds', of the media's grids, which go on beyond the interfaces.
+// Cost: one plane test an interface polygon, the grid's cells on the way.
 class OpticalDepth {
   public:
     // Keeps a reference to the enclosure. `tolerance` [m]: points nearer to a plane are on it.
@@ -39,11 +50,14 @@ class OpticalDepth {
         return medium == none ? 0.0 : enclosure_->media[medium].extinction[band];
     }
     bool differ(std::uint32_t a, std::uint32_t b) const;
+    // Adds `sign` times what a medium would make of the last part of a path.
+    void add_varying(std::uint32_t medium, Point x, Direction path, double beyond, double sign,
+                     std::span<double> depth) const;
     void find_interfaces();
 
     const Enclosure* enclosure_;
     double tolerance_;
-    bool transparent_ = true;
+    bool transparent_ = true, varies_ = false;
     std::vector<Interface> interfaces_;
 };
 

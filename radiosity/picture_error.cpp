@@ -53,7 +53,10 @@ class ErrorWalk {
         const auto medium = medium_of(e_, s_.forest, zone);
         if (medium == none) return true;
         const MediumOptics& optics = e_.media[medium];
-        const auto w = segment_weights(optics.extinction[band_] * (t_out - t_in));
+        const auto w =
+            optics.varying.empty()
+                ? segment_weights(optics.extinction[band_] * (t_out - t_in))
+                : optics.varying[band_].weights(ray_.origin, ray_.direction, t_in, t_out);
         const Point in = ray_.origin + t_in * ray_.direction,
                     out = ray_.origin + t_out * ray_.direction;
         const double front = transmittance_ * w.front, back = transmittance_ * w.back;

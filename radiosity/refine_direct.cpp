@@ -231,8 +231,7 @@ RefineResult DirectRefiner::refine(const Importance& importance, double goal,
 void DirectRefiner::sample_means() {
     const Forest& forest = mesh_.forest();
     const auto capacity_of_zone = [&](ZoneId z) {
-        const auto& optics = enclosure_.media[medium_of(enclosure_, forest, z)];
-        return 4.0 * mean_over_bands(optics.extinction) * forest.volume(z);
+        return 4.0 * rough_extinction(enclosure_, forest, z) * forest.volume(z);
     };
     double power = 0.0;  // of direct light on all leaves, over π
     for (std::size_t b = 0; b < bands_; ++b) {

@@ -7,8 +7,14 @@ namespace {
 
 class Numbering {
   public:
-    Numbering(const Forest& forest, const Elements& elements, RowLevels& levels)
-        : forest_(forest), elements_(elements), levels_(levels), measure_(elements.size() + 1) {
+    Numbering(const Enclosure& enclosure, const Forest& forest, const Elements& elements,
+              RowLevels& levels)
+        : enclosure_(enclosure),
+          varies_(enclosure.varies()),
+          forest_(forest),
+          elements_(elements),
+          levels_(levels),
+          measure_(elements.size() + 1) {
         levels_.parent.assign(measure_.size(), none);
     }
 
@@ -34,7 +40,9 @@ class Numbering {
                 open.push_back({children, false});
                 continue;
             }
-            const auto column = append(measure(node));
+            const auto column =
+                append(varies_ ? measure_[of_node[children.value]] + measure_[of_node[second.value]]
+                               : measure(node));
             of_node[node.value] = column;
             levels_.parent[of_node[children.value]] = column;
             levels_.parent[of_node[second.value]] = column;
@@ -66,7 +74,14 @@ class Numbering {
     }
 
   private:
-    double measure(ZoneId zone) const { return forest_.volume(zone); }
+    double measure(ZoneId zone) const {
+        const double volume = forest_.volume(zone);
+        if (!varies_) return volume;
+        // A zone is met as often as it is dense.
+        const auto medium = medium_of(enclosure_, forest_, zone);
+        const double least = least_density * enclosure_.media[medium].extinction[0] + 1e-300;
+        return volume * (rough_extinction(enclosure_, forest_, zone) + least);
+    }
     double measure(PatchId patch) const { return forest_.area(patch); }
     std::uint32_t append(double measure) {
         measure_.push_back(measure);
@@ -74,10 +89,12 @@ class Numbering {
         return static_cast<std::uint32_t>(measure_.size() - 1);
     }
 
+    const Enclosure& enclosure_;
+    bool varies_;  // extinction, somewhere
     const Forest& forest_;
     const Elements& elements_;
     RowLevels& levels_;
-    std::vector<double> measure_;  // area or volume of every column
+    std::vector<double> measure_;  // of every column: area, volume, or ∫ κ dV where κ varies
 };
 
 }  // namespace
@@ -102,7 +119,7 @@ RowLevels make_row_levels(const Enclosure& enclosure, const Forest& forest,
     RowLevels levels;
     levels.of_patch.assign(forest.patch_count(), none);
     levels.of_zone.assign(forest.zone_count(), none);
-    Numbering numbering(forest, elements, levels);
+    Numbering numbering(enclosure, forest, elements, levels);
     const OpticalTags tags(enclosure);
     for (std::size_t p = 0; p < tags.facet_sides.size(); ++p)
         if (tags.facet_sides[p] != none)

@@ -69,11 +69,15 @@ RowScene::RowScene(const Discretization& d, const RowLevels* levels, std::size_t
         extinction_.push_back(tags.tets[t] == none
                                   ? 0.0f
                                   : static_cast<float>(d.enclosure.extinction(TetId(t), band)));
+    if (!d.enclosure.varies()) return;
+    for (std::size_t t = 0; t < mesh_.tets.size(); ++t)
+        varying_.push_back(tags.tets[t] == none ? nullptr : d.enclosure.varying(TetId(t), band));
 }
 
 std::size_t RowScene::memory() const {
     return sizeof(Pair) * (zones_.pairs.capacity() + patches_.pairs.capacity()) +
            sizeof(Cluster) * (zones_above_.clusters.size() + patches_above_.clusters.size()) +
+           sizeof(void*) * varying_.size() +
            4 * (extinction_.size() + zones_above_.of_root.size() + patches_above_.of_root.size());
 }
 

@@ -67,6 +67,8 @@ class RowScene {
     Tree zones_, patches_;
     Above zones_above_, patches_above_;
     std::vector<float> extinction_;  // of base tets, 0 where there is no element [1/m]
+    // Of base tets, null where it is uniform; empty where it is so everywhere.
+    std::vector<const ExtinctionBand*> varying_;
 };
 
 // Follows rays. deposit(column, share, distance): of what a ray carries, 1 in all, `share` ends in
@@ -80,6 +82,7 @@ class RowWalk {
     // it has one, is not deposited.
     mesh::Arrival follow(const mesh::Ray& ray, mesh::WalkStart start) {
         const Point from = ray.origin - s_.centre_;
+        ray_ = &ray;
         for (int axis = 0; axis < 3; ++axis) {
             origin_[axis] = static_cast<float>(from[axis]);
             direction_[axis] = static_cast<float>(ray.direction[axis]);
@@ -126,6 +129,7 @@ class RowWalk {
         const float extinction = s_.extinction_[tet];
         if (extinction == 0.0f) return;
         const float detail = s_.detail_;
+        varying_ = s_.varying_.empty() ? nullptr : s_.varying_[tet];
         if (const auto column = cluster_for(s_.zones_above_, tet, detail * t_in); column != none)
             return pass(column, extinction, t_in, t_out);
         struct Pending {
@@ -163,6 +167,7 @@ class RowWalk {
 
     // Segments of one node on end are one deposit.
     void pass(std::uint32_t column, float extinction, float t_in, float t_out) {
+        if (varying_) return pass_varying(column, t_in, t_out);
         if (column != column_) {
             flush();
             column_ = column;
@@ -170,6 +175,16 @@ class RowWalk {
         }
         depth_ += extinction * (t_out - t_in);
         far_ = t_out;
+    }
+
+    void pass_varying(std::uint32_t column, double t_in, double t_out) {
+        flush();
+        column_ = none;
+        const auto w = varying_->weights(ray_->origin, ray_->direction, t_in, t_out);
+        const double lost = w.front + w.back;
+        if (!(lost > 0.0)) return;
+        deposit_(column, transmittance_ * lost, t_in + (t_out - t_in) * (w.back / lost));
+        transmittance_ -= transmittance_ * lost;
     }
 
     void flush() {
@@ -215,6 +230,8 @@ class RowWalk {
 
     const RowScene& s_;
     Deposit deposit_;
+    const mesh::Ray* ray_ = nullptr;
+    const ExtinctionBand* varying_ = nullptr;  // in the tet that is crossed
     float origin_[3]{}, direction_[3]{};
     double transmittance_ = 1.0;
     std::uint32_t column_ = none;

@@ -1,6 +1,8 @@
 // What is to be solved: surfaces, materials, media, lights. Plain data in SI units.
 #pragma once
 
+#include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -40,10 +42,21 @@ struct Surface {
     std::string where{};
 };
 
+class RegularGrid;
+
+// How extinction varies in space, at least 0: a function of the place [m], which is sampled to a
+// grid before anything is solved (extinction_field.h), from one thread; or a grid.
+struct ExtinctionShape {
+    std::variant<std::function<double(Point)>, std::shared_ptr<const RegularGrid>> values{};
+    std::string where{};  // for messages
+};
+
 struct Medium {
     std::string name{};
-    Spectrum extinction{};  // kappa_t [1/m]
-    Spectrum albedo{};      // Omega = kappa_s / kappa_t, 0 to 1 [-]
+    Spectrum extinction{};  // kappa_t, or what the shape's values are multiplied by [1/m]
+    // Of the extinction: one shape for all bands, or one a band; empty: 1 everywhere [-].
+    std::vector<ExtinctionShape> shape{};
+    Spectrum albedo{};  // Omega = kappa_s / kappa_t, 0 to 1 [-]
     // g of Henyey–Greenstein, −1 < g < 1; the solve uses reduced coefficients [-]
     double asymmetry = 0.0;
     Spectrum emission{};  // J_e; empty: none [W/m^2/sr]

@@ -1,6 +1,7 @@
 // What a ray gains on its way through one zone: the integral of (4) in closed form.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 namespace tyndall::radiosity {
@@ -23,6 +24,19 @@ inline SegmentWeights segment_weights(double tau) {
         back = (opacity - tau * (1.0 - opacity)) / tau;
     }
     return {opacity - back, back, 1.0 - opacity};
+}
+
+// The same where κ varies along the segment: `first` and `second` are the optical lengths of its
+// halves, J is linear in the distance. By parts, ∫ κ T s/Δ ds = ⟨T⟩ − T(Δ), ⟨T⟩ the mean of the
+// transmittance T over the segment; Simpson's rule is applied to what T differs by from that of a
+// uniform segment, which is 0 at both ends (45). Exact where the halves are alike, and for κ linear
+// in s where the segment is thin.
+inline SegmentWeights segment_weights(double first, double second) {
+    const double tau = first + second;
+    SegmentWeights w = segment_weights(tau);
+    const double excess = 2.0 / 3.0 * std::exp(-0.5 * tau) * std::expm1(0.5 * (second - first));
+    const double moved = std::clamp(excess, -w.back, w.front);
+    return {w.front - moved, w.back + moved, w.transmittance};
 }
 
 }  // namespace tyndall::radiosity

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
+#include "mesh/input_error.h"
 #include "radiosity/solution_parts.h"
 
 namespace tyndall::radiosity {
@@ -210,6 +212,67 @@ bool spectra_fit(const Enclosure& e) {
     return good;
 }
 
+// Extinction that varies: the grids of all media in one list, as arrays, and which of them each
+// band of a medium has.
+void write_grids(Hdf5Writer& file, const Enclosure& e) {
+    std::vector<const RegularGrid*> grids;
+    Json json = Json::array();
+    for (const auto& medium : e.media) {
+        json.push_back(Json::array());
+        for (const ExtinctionBand& band : medium.varying) {
+            auto at = std::find(grids.begin(), grids.end(), band.shape.get());
+            if (at == grids.end()) at = grids.insert(at, band.shape.get());
+            json.back().push_back({{"grid", at - grids.begin()}, {"factor", band.factor}});
+        }
+    }
+    Json boxes = Json::array();
+    for (std::size_t g = 0; g < grids.size(); ++g) {
+        boxes.push_back({{"counts", grids[g]->counts()},
+                         {"low", vector_json(grids[g]->low())},
+                         {"high", vector_json(grids[g]->high())},
+                         {"beyond_is_edge", grids[g]->beyond() == BeyondGrid::edge}});
+        file.array(fmt::format("{}/extinction_{}", folder, g), grids[g]->values());
+    }
+    file.text(folder + "/extinction", Json{{"media", json}, {"grids", boxes}}.dump());
+}
+
+std::shared_ptr<const RegularGrid> read_grid(const Hdf5Reader& file, const Json& box,
+                                             std::size_t index) {
+    auto values = file.array<float>(fmt::format("{}/extinction_{}", folder, index));
+    try {
+        return std::make_shared<const RegularGrid>(
+            box.at("counts").get<std::array<std::size_t, 3>>(), vector_of(box.at("low")),
+            vector_of(box.at("high")), std::move(values),
+            box.at("beyond_is_edge").get<bool>() ? BeyondGrid::edge : BeyondGrid::nothing);
+    } catch (const mesh::InputError& error) {
+        file.fail(fmt::format("'{}/extinction_{}' is damaged ({})", folder, index, error.what()));
+    }
+}
+
+void read_grids(const Hdf5Reader& file, Enclosure& e) {
+    const std::string path = folder + "/extinction";
+    if (!file.has(path)) return;  // it is uniform everywhere
+    try {
+        const Json json = Json::parse(file.text(path));
+        std::vector<std::shared_ptr<const RegularGrid>> grids;
+        for (const Json& box : json.at("grids"))
+            grids.push_back(read_grid(file, box, grids.size()));
+        const Json& media = json.at("media");
+        for (std::size_t m = 0; m < e.media.size(); ++m) {
+            auto& varying = e.media[m].varying;
+            for (const Json& band : media.at(m))
+                varying.push_back({grids.at(band.at("grid").get<std::size_t>()),
+                                   band.at("factor").get<double>()});
+            if (!varying.empty() && varying.size() != e.bands)
+                file.fail(fmt::format("'{}' has other counts of bands", path));
+        }
+    } catch (const Json::exception& error) {
+        file.fail(fmt::format("'{}' is damaged ({})", path, error.what()));
+    } catch (const std::out_of_range&) {
+        file.fail(fmt::format("'{}' points beyond its table", path));
+    }
+}
+
 void read_optics(const Hdf5Reader& file, Enclosure& e) {
     const std::string path = folder + "/optics";
     try {
@@ -218,6 +281,7 @@ void read_optics(const Hdf5Reader& file, Enclosure& e) {
         file.fail(fmt::format("'{}' is damaged ({})", path, error.what()));
     }
     if (!spectra_fit(e)) file.fail(fmt::format("'{}' has other counts of bands", path));
+    read_grids(file, e);
 }
 
 // An array of indices below `limit`, or none where that may be.
@@ -310,6 +374,7 @@ void write_enclosure(Hdf5Writer& file, const Enclosure& e) {
     file.group(folder);
     file.text(folder + "/optics",
               optics_json(e).dump(1, ' ', false, Json::error_handler_t::replace));
+    if (e.varies()) write_grids(file, e);
     std::vector<double> points;
     for (const Point& p : e.mesh.points) points.insert(points.end(), {p.x, p.y, p.z});
     file.array(folder + "/points", points, 3);

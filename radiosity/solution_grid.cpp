@@ -141,19 +141,19 @@ class Grid {
         const MediumOptics& optics = e_.media[medium];
         for (std::size_t b = 0; b < bands_; ++b) {
             const Equation q = equation(s_, zone, b);
-            const double h = q.incident.at(centroid), kappa = optics.extinction[b];
+            const auto [kappa, centre] = extinction_in(e_, s_.forest, zone, b);
+            const double h = q.incident.at(centre);
             values_[irradiance].push_back(0.0);
             values_[net_flux].push_back(0.0);
             // 4 pi kappa_a (J_e − H), likewise.
             values_[flux_divergence].push_back(4.0 * pi * kappa *
                                                (q.emission - (1.0 - q.scatter) * h));
             // J_e, of a heated medium too: (1 − Omega) J_e = x − Omega H.
-            const double scattering = kappa - optics.absorption[b];
+            const double absorbed =  // 1 − Omega
+                optics.extinction[b] > 0.0 ? optics.absorption[b] / optics.extinction[b] : 0.0;
             values_[emission].push_back(
-                optics.absorption[b] > 0.0
-                    ? (kappa * q.emission + (q.scatter * kappa - scattering) * h) /
-                          optics.absorption[b]
-                    : 0.0);
+                absorbed > 0.0 ? (q.emission + (q.scatter - (1.0 - absorbed)) * h) / absorbed
+                               : 0.0);
             values_[extinction].push_back(kappa);
         }
     }

@@ -17,33 +17,45 @@ double thin_enough(const CoarseSolution& coarse) {
     return coarse.areas(0).moments.empty() ? 0.5 : 2.0;
 }
 
-void warn_of_thick_zones(const Enclosure& enclosure, const CoarseSolution& coarse, Report& report) {
-    const Elements& e = coarse.elements();
-    double thickest = 0.0;
+// The zone of the coarse solution with most optical depth across.
+struct ThickestZone {
+    double depth = 0.0, extinction = 0.0;  // [-], [1/m]
     std::uint32_t medium = 0;
+};
+
+ThickestZone thickest_zone(const Enclosure& enclosure, const CoarseSolution& coarse) {
+    const Elements& e = coarse.elements();
+    ThickestZone thickest;
     for (std::size_t i = e.patches.size(); i < e.size(); ++i) {
         const auto m = medium_of(enclosure, coarse.forest(), e.zone(i));
         double volume = 0.0;
         for (const auto member : e.members_of(i)) volume += coarse.forest().volume(ZoneId(member));
         const double size = std::cbrt(volume);
         const MediumOptics& optics = enclosure.media[m];
-        for (std::size_t b = 0; b < optics.extinction.size(); ++b) {
+        for (std::size_t b = 0; b < e.bands; ++b) {
             // J is known, and constant, where a medium only emits.
             if (optics.albedo[b] == 0.0 && !optics.settled_heat) continue;
-            if (optics.extinction[b] * size > thickest) {
-                thickest = optics.extinction[b] * size;
-                medium = m;
-            }
+            const double extinction = optics.varying.empty()
+                                          ? optics.extinction[b]
+                                          : e.capacity[i * e.bands + b] / (4.0 * volume);
+            if (extinction * size > thickest.depth) thickest = {extinction * size, extinction, m};
         }
     }
+    return thickest;
+}
+
+void warn_of_thick_zones(const Enclosure& enclosure, const CoarseSolution& coarse, Report& report) {
+    const ThickestZone thickest = thickest_zone(enclosure, coarse);
     const double thin = thin_enough(coarse);
-    if (thickest > thin)
-        report.warnings.push_back(fmt::format(
-            "zones of medium \"{}\" in the coarse solution are up to {:.2g} optical depths thick: "
-            "fluxes through them are uncertain. Set solve.element_size to {:.2g} m or less.",
-            enclosure.media[medium].name, thickest,
-            thin / *std::max_element(enclosure.media[medium].extinction.begin(),
-                                     enclosure.media[medium].extinction.end())));
+    if (!(thickest.depth > thin)) return;
+    const MediumOptics& optics = enclosure.media[thickest.medium];
+    const double most = optics.varying.empty()
+                            ? *std::max_element(optics.extinction.begin(), optics.extinction.end())
+                            : thickest.extinction;
+    report.warnings.push_back(fmt::format(
+        "zones of medium \"{}\" in the coarse solution are up to {:.2g} optical depths thick: "
+        "fluxes through them are uncertain. Set solve.element_size to {:.2g} m or less.",
+        optics.name, thickest.depth, thin / most));
 }
 
 // Refinement makes elements smaller; it cannot mend what rays leave.

@@ -7,8 +7,9 @@ namespace tyndall::radiosity {
 
 bool is_thick(const Enclosure& enclosure, const Forest& forest, ZoneId zone, double thickness) {
     if (!forest.is_leaf(zone)) return false;
-    const auto& extinction = enclosure.media[medium_of(enclosure, forest, zone)].extinction;
-    const double most = *std::max_element(extinction.begin(), extinction.end());
+    double most = 0.0;
+    for (std::size_t b = 0; b < enclosure.bands; ++b)
+        most = std::max(most, extinction_in(enclosure, forest, zone, b).mean);
     return most * std::cbrt(forest.volume(zone)) > thickness;
 }
 

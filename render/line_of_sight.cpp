@@ -81,7 +81,9 @@ class LineOfSight {
                     out = ray.origin + t_out * ray.direction;
         double most = 0.0;
         for (std::size_t b = 0; b < bands_; ++b) {
-            const auto w = radiosity::segment_weights(optics.extinction[b] * (t_out - t_in));
+            const auto w = optics.varying.empty()
+                               ? radiosity::segment_weights(optics.extinction[b] * (t_out - t_in))
+                               : optics.varying[b].weights(ray.origin, ray.direction, t_in, t_out);
             double& transmittance = seen.transmittance[b];
             const auto gain = [&](Part part, double at_in, double at_out) {
                 seen.radiance[part * bands_ + b] +=

@@ -87,6 +87,7 @@ const std::vector<Room> rooms{
     {"libpng", "<png\\.h", "render"},
     {"toml++", "<toml", "cli"},
     {"CLI11", "<CLI/", "cli"},
+    {"muParser", "<muParser", "cli"},
 };
 
 // Libraries that no header includes: they would cost every file seconds, and every user of the

@@ -69,6 +69,45 @@ TEST_CASE("Media apart: crossings and walk give one optical depth", "[direct_lig
     }
 }
 
+TEST_CASE("Media apart, one of which varies: crossings and walk give one optical depth",
+          "[direct_light]") {
+    // Fog that thins with height below z = 0.5, a uniform bank above it, and nothing beyond x =
+    // 0.6.
+    const auto face = [](Point c, int axis) -> std::optional<Face> {
+        if ((axis == 2 && c.z == 0.5 && c.x < 0.6) || (axis == 0 && c.x == 0.6))
+            return Face{Opacity::interface, none, none};
+        return std::nullopt;
+    };
+    auto e = test::box_enclosure({{{0, 0.6, 1}, {0, 1}, {0, 0.5, 1}}}, face);
+    REQUIRE(e.mesh.region_count == 3);
+    const auto kappa = [](Point p) { return 2.0 - 3.0 * p.z + p.x * p.y; };
+    e.media = {{"fog", {1.0}, {0.5}, {0.0}, {0.5}}, {"bank", {0.7}, {0.5}, {0.0}, {0.35}}};
+    e.media[0].varying = {{radiosity::sample_function(kappa, {0, 0, 0}, {0.6, 1, 0.5}).grid, 1.0}};
+    const auto region = [&](Point x) {
+        return e.mesh.regions[test::tet_at(e.mesh, x).value].value;
+    };
+    e.region_medium[region({0.1, 0.1, 0.1})] = 0;
+    e.region_medium[region({0.1, 0.1, 0.9})] = 1;
+    const radiosity::OpticalDepth depth(e, 1e-11);
+    std::mt19937_64 rng(6);
+    std::uniform_real_distribution<double> u(0, 1);
+    for (int k = 0; k < 200; ++k) {
+        const Point a(u(rng), u(rng), u(rng)), b(u(rng), u(rng), u(rng));
+        const auto tet = test::tet_at(e.mesh, a);
+        const int steps = 1000;  // composite midpoint rule: jumps cost a step each at most
+        const double s = glm::distance(a, b), step = s / steps;
+        double crossed, walked, sum = 0.0;
+        for (int i = 0; i < steps; ++i) {
+            const Point p = a + (b - a) * ((i + 0.5) / steps);
+            sum += step * (p.x > 0.6 ? 0.0 : p.z > 0.5 ? 0.7 : kappa(p));
+        }
+        depth(a, tet, b - a, {&crossed, 1});
+        depth.walked(a, tet, b - a, {&walked, 1});
+        CHECK(std::abs(crossed - sum) <= 2.0 * 3 * step);
+        CHECK(walked == Approx(crossed).margin(1e-12));
+    }
+}
+
 TEST_CASE("A layered medium: τ within the integral", "[direct_light]") {
     // Fog above z = 0.5 under a lit ceiling: against brute-force integration.
     const auto face = [](Point c, int axis) -> std::optional<Face> {
