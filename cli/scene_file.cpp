@@ -184,11 +184,12 @@ ViewSettings read_view_settings(const std::string& toml,
 std::string scene_file_reference() {
     std::string text;
     for (const KeyTable* table :
-         {&keys::root(), &keys::material(), &keys::surface(), &keys::cuboid(), &keys::rectangle(),
-          &keys::face_opening(), &keys::opening(), &keys::rotate(), &keys::medium(),
-          &keys::extinction(), &keys::phase(), &keys::light(), &keys::sun(), &keys::point(),
-          &keys::spot(), &keys::environment(), &keys::camera(), &solve_keys(), &render_keys(),
-          &keys::grey_gases(), &keys::grey_gas()}) {
+         {&keys::root(),      &keys::material(),     &keys::surface(), &keys::cuboid(),
+          &keys::rectangle(), &keys::face_opening(), &keys::opening(), &keys::rotate(),
+          &keys::medium(),    &keys::extinction(),   &keys::phase(),   &keys::light(),
+          &keys::sun(),       &keys::point(),        &keys::spot(),    &keys::environment(),
+          &keys::camera(),    &solve_keys(),         &render_keys(),   &keys::grey_gases(),
+          &keys::grey_gas()}) {
         text += fmt::format("### {}\n\n| key | value | default | meaning |\n|---|---|---|---|\n",
                             table->title);
         for (const Key& key : table->keys) {

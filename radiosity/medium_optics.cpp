@@ -67,8 +67,8 @@ class Varying {
         const bool still = std::ranges::all_of(medium_.heat, [](double q) { return q == 0.0; });
         if (still && !optics_.settled_heat) return;
         throw mesh::InputError(fmt::format(
-            "{} has {}, and an extinction that varies in space: that needs an extinction that is "
-            "the same everywhere. Give one number, or emission or temperature in place of heat.",
+            "{} has {}, and an extinction that varies in space: it needs an extinction that is the "
+            "same everywhere. Give one number, or emission or temperature in place of heat.",
             named(), still ? "heat in several bands" : "a heat source"));
     }
 
