@@ -11,7 +11,7 @@ namespace tyndall::radiosity {
 // By what it costs: each kind may hold the ones before it as well.
 enum class SceneChange {
     nothing,   // the solution is the same
-    emission,  // sources are brighter or darker: the one equation is linear in them (40)
+    emission,  // sources are brighter or darker: the one equation is linear in them (46)
     lights,    // where they stand, how they are turned, what shape their light has
     optics,    // extinction, albedo, reflectance: exchange areas, or the equation itself
     geometry,  // surfaces, what they are made of, which regions media fill

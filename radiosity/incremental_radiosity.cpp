@@ -88,7 +88,7 @@ std::size_t worst_scene(const UnitShots& shots, const SolveOptions& options, std
     return worst;
 }
 
-// (41), given the units' own errors and magnitudes, and the scene's magnitude.
+// (47), given the units' own errors and magnitudes, and the scene's magnitude.
 ErrorParts combine(const UnitShots& shots, std::size_t scene, const std::vector<ErrorParts>& errors,
                    const std::vector<double>& magnitudes, double whole) {
     ErrorParts result;
@@ -185,6 +185,10 @@ void add(const Spectrum& weights, const Solution& unit, Solution& sum) {
     add(most(weights), unit.patch_direct_error, sum.patch_direct_error);
     for (const auto& [name, power] : unit.report.net_power)
         add(weights, power, sum.report.net_power[name]);
+    for (const auto& [name, flux] : unit.report.net_flux)
+        add(weights, flux, sum.report.net_flux[name]);
+    for (const auto& [name, divergence] : unit.report.flux_divergence)
+        add(weights, divergence, sum.report.flux_divergence[name]);
 }
 
 double larger(double a, double b) {

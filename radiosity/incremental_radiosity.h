@@ -23,7 +23,7 @@ struct UnitShots {
 // Purpose: solutions from which those of all these scenes are sums:
 //   1. a full adaptive solve with every source at its largest: the common mesh
 //   2. each group alone on that mesh, frozen
-//   3. where the estimated error of a scene, (41), misses options.error: that scene solved
+//   3. where the estimated error of a scene, (47), misses options.error: that scene solved
 //      adaptively on from the common mesh, and 2 again; three times at most
 // `enclosure`: made of any of the scenes, or of groups.largest.
 // Scenes: in emission alone different (compare_scenes.h). A stop that `progress` asks for leaves
@@ -40,14 +40,14 @@ UnitShots shoot_units(std::span<const Scene> scenes, const Enclosure& enclosure,
 // Purpose: the estimated errors of one of the scenes that were given to shoot_units, from those of
 //   the units: with w_k the group's largest weight over bands, L_k the picture's mean radiance
 //   and n_k² = Σ c x_k²,
-//   elements² = Σ (w_k elements_k L_k)² / L²,  gathers, coarse = Σ w_k gathers_k L_k / L      (41)
+//   elements² = Σ (w_k elements_k L_k)² / L²,  gathers, coarse = Σ w_k gathers_k L_k / L      (47)
 //   of the picture, and with n for L of the solution: departures of leaves have either sign and are
 //   independent from source to source; what sampling leaves is the same rays' for all.
 ErrorParts superposed_picture_error(const UnitShots& shots, std::size_t scene);
 ErrorParts superposed_solution_error(const UnitShots& shots, std::size_t scene);
 
 // Purpose: the solution of one of the scenes that were given to shoot_units:
-//   H = Σ_k w_k H_k,  x = Σ_k w_k x_k  in every band                                          (40)
+//   H = Σ_k w_k H_k,  x = Σ_k w_k x_k  in every band                                          (46)
 //   of fields, coarse values and net power; the errors of leaves are Σ w_k times theirs.
 //   Its report holds the largest balance, closure and residual of the units, and no passes.
 // Cost: O(leaves × groups), and a copy of the base mesh and the forest.

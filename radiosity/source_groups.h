@@ -21,7 +21,7 @@ struct SourceGroups {
     std::vector<SourceGroup> groups;  // in the order of their first sources; dark ones left out
 };
 
-// Purpose: scene s is Σ over groups of weights[s] times the group's scene, in every band (40). What
+// Purpose: scene s is Σ over groups of weights[s] times the group's scene, in every band (46). What
 //   does not change is one group, of weight 1.
 // Requires: at least one scene; scenes that differ in emission alone (compare_scenes.h).
 // Cost: O(scenes × sources).
