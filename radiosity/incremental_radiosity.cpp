@@ -9,7 +9,7 @@
 namespace tyndall::radiosity {
 namespace {
 
-constexpr std::size_t most_rounds = 3;  // of refinement for scenes that miss the goal
+constexpr std::size_t most_rounds = 1;  // of refinement for scenes that miss the goal
 
 std::shared_ptr<const Enclosure> lit_by(const Scene& scene, const Enclosure& enclosure) {
     auto lit = std::make_shared<Enclosure>(enclosure);
@@ -19,6 +19,12 @@ std::shared_ptr<const Enclosure> lit_by(const Scene& scene, const Enclosure& enc
 
 std::size_t leaves_of(const Solution& solution) {
     return solution.report.patches + solution.report.zones;
+}
+
+// Direct light has used its share of the elements allowed: further rounds would gain little.
+bool full(const Solution& solution, const SolveOptions& options) {
+    return static_cast<double>(leaves_of(solution)) >=
+           0.75 * static_cast<double>(options.max_elements);
 }
 
 double mean(const Spectrum& values) {
@@ -72,19 +78,19 @@ void measure(const std::optional<View>& view, UnitShots& shots) {
     }
 }
 
-// Of what refinement weighs errors by, as a single solve does.
-double goal_error(const UnitShots& shots, const SolveOptions& options, std::size_t scene) {
+// What refinement can mend, of what it weighs errors by: the picture's where there is one.
+double elements_error(const UnitShots& shots, const SolveOptions& options, std::size_t scene) {
     const bool for_picture = options.refinement >= Refinement::view && !shots.picture.empty();
     const ErrorParts picture = for_picture ? superposed_picture_error(shots, scene) : ErrorParts{};
-    return picture.total() > 0.0 ? picture.total()
-                                 : superposed_solution_error(shots, scene).total();
+    return picture.elements > 0.0 ? picture.elements
+                                  : superposed_solution_error(shots, scene).elements;
 }
 
 // The scene with the largest error.
 std::size_t worst_scene(const UnitShots& shots, const SolveOptions& options, std::size_t scenes) {
     std::size_t worst = 0;
     for (std::size_t s = 1; s < scenes; ++s)
-        if (goal_error(shots, options, s) > goal_error(shots, options, worst)) worst = s;
+        if (elements_error(shots, options, s) > elements_error(shots, options, worst)) worst = s;
     return worst;
 }
 
@@ -220,9 +226,9 @@ UnitShots shoot_units(std::span<const Scene> scenes, const Enclosure& enclosure,
     Shooter shooter(enclosure, options, view, progress, shots);
     shooter.shoot(shooter.solve(shots.groups.largest));
     for (std::size_t round = 0; round < most_rounds && !shooter.stopped(); ++round) {
-        if (shots.groups.groups.size() <= 1) break;
+        if (shots.groups.groups.size() <= 1 || full(shots.units.front(), options)) break;
         const std::size_t worst = worst_scene(shots, options, scenes.size());
-        if (goal_error(shots, options, worst) <= options.error) break;
+        if (elements_error(shots, options, worst) <= options.error) break;
         Passes passes;
         passes.begin_with =
             std::make_shared<const KeptMesh>(KeptMesh{enclosure.mesh, shots.units.front().forest});

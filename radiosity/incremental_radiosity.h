@@ -23,8 +23,8 @@ struct UnitShots {
 // Purpose: solutions from which those of all these scenes are sums:
 //   1. a full adaptive solve with every source at its largest: the common mesh
 //   2. each group alone on that mesh, frozen
-//   3. where the estimated error of a scene, (47), misses options.error: that scene solved
-//      adaptively on from the common mesh, and 2 again; three times at most
+//   3. where what leaves are too coarse for, `elements` of (47), is more than options.error in a
+//      scene: that scene solved adaptively on from the common mesh, and 2 again; once
 // `enclosure`: made of any of the scenes, or of groups.largest.
 // Scenes: in emission alone different (compare_scenes.h). A stop that `progress` asks for leaves
 //   valid solutions of what there is.
