@@ -105,3 +105,12 @@ TEST_CASE("The worst of several differences counts, names and places do not", "[
     CHECK(difference.change == SceneChange::optics);
     CHECK(difference.what.size() == 3);
 }
+
+TEST_CASE("Where temperatures are found, emission is not linear", "[animation]") {
+    Scene before = with_lights();
+    before.materials[0].flux = {0.0};
+    Scene after = before;
+    CHECK(compare_scenes(before, after).change == SceneChange::nothing);
+    after.materials[1].emission = {1.0};
+    CHECK(compare_scenes(before, after).change == SceneChange::optics);
+}
