@@ -9,6 +9,7 @@ void add_all_commands(Shell& shell) {
     add_render_command(shell);
     add_probe_command(shell);
     add_exchange_command(shell);
+    add_animate_command(shell);
     add_study_command(shell);
     add_compare_command(shell);
 }

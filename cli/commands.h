@@ -72,6 +72,9 @@ void add_exchange_command(Shell& shell);
 // check_command.cpp
 void add_check_command(Shell& shell);
 
+// animate_command.cpp
+void add_animate_command(Shell& shell);
+
 // study_command.cpp
 void add_study_command(Shell& shell);
 

@@ -23,10 +23,14 @@ std::vector<std::string> override_texts(const CommonFlags& flags) {
     return texts;
 }
 
-SceneFile load_scene(const std::string& path, const CommonFlags& flags) {
+std::vector<std::string> scene_overrides(const CommonFlags& flags) {
     auto overrides = override_texts(flags);
     if (flags.seed) overrides.push_back(fmt::format("solve.seed={}", *flags.seed));
-    return read_scene_file(path, overrides);
+    return overrides;
+}
+
+SceneFile load_scene(const std::string& path, const CommonFlags& flags) {
+    return read_scene_file(path, scene_overrides(flags));
 }
 
 std::shared_ptr<const radiosity::Enclosure> mesh_scene(const SceneFile& file,

@@ -18,6 +18,8 @@ SceneFile load_scene(const std::string& path, const CommonFlags& flags);
 
 // --set as read_scene_file takes it.
 std::vector<std::string> override_texts(const CommonFlags& flags);
+// The same with --seed.
+std::vector<std::string> scene_overrides(const CommonFlags& flags);
 
 // Conforms and tetrahedralizes; the notes of the scene file go first among the warnings.
 std::shared_ptr<const radiosity::Enclosure> mesh_scene(const SceneFile& file,

@@ -97,6 +97,12 @@ radiosity::ProgressCallback ProgressLine::callback() {
     };
 }
 
+void ProgressLine::begin_with(const std::string& text) {
+    const std::lock_guard lock(mutex_);
+    begins_with_ = text;
+    stage_.clear();
+}
+
 void ProgressLine::clear() {
     const std::lock_guard lock(mutex_);
     if (visible_) std::fputs("\r\x1b[K", stderr);
@@ -114,7 +120,8 @@ void ProgressLine::show(const radiosity::Progress& progress) {
     }
     last_shown_ = now;
     const double elapsed = std::chrono::duration<double>(now - stage_began_).count();
-    std::string text = (stopped() ? "stopping: " : "") + progress_text(progress, elapsed);
+    std::string text =
+        (stopped() ? "stopping: " : "") + begins_with_ + progress_text(progress, elapsed);
     // A line that wraps could not be written over.
     text.resize(std::min(text.size(), terminal_width() - 1));
     fmt::print(stderr, "\r{}\x1b[K", text);

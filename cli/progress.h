@@ -42,6 +42,8 @@ class ProgressLine {
     radiosity::ProgressCallback callback();
     // Whether the user asked for a stop.
     bool stopped() const { return interrupt_.requested(); }
+    // What every line begins with from now on: "frame 3 of 48: ".
+    void begin_with(const std::string& text);
     // Takes the line away, so that other text can be printed.
     void clear();
 
@@ -52,7 +54,7 @@ class ProgressLine {
     StopOnInterrupt interrupt_;
     bool on_terminal_;
     std::mutex mutex_;
-    std::string stage_;
+    std::string begins_with_, stage_;
     Clock::time_point stage_began_, last_shown_;
     bool visible_ = false;
 };

@@ -123,37 +123,97 @@ bool emits_light(const radiosity::Scene& scene) {
     return false;
 }
 
-}  // namespace
+enum class Surfaces { read, left_out };
 
-SceneFile read_scene_file(const std::filesystem::path& path,
-                          const std::vector<std::string>& overrides) {
-    toml::table table = parse_toml_file(path, "scene");
-    for (const std::string& override : overrides) apply_override(table, override);
-
+SceneFile read_table(const toml::table& table, const std::filesystem::path& folder,
+                     Surfaces surfaces) {
     const TableReader root(table, keys::root(), "the scene");
     check_format(root);
     SceneFile file;
     if (root.has("title")) file.scene.title = root.text("title");
-    read_spectrum(root, path.parent_path(), file.scene);
+    read_spectrum(root, folder, file.scene);
 
     Names materials("material"), cameras("camera");
     read_materials(root, materials, file.scene, file.notes);
-    read_surfaces(root, path.parent_path(), materials, file.scene, file.notes);
-    read_media(root, path.parent_path(), file.scene, file.notes);
+    if (surfaces == Surfaces::read) read_surfaces(root, folder, materials, file.scene, file.notes);
+    read_media(root, folder, file.scene, file.notes);
     read_lights(root, file.scene);
     read_environment(root, file.scene);
     read_cameras(root, cameras, file);
 
     const Settings settings = read_settings(root);
     file.solve = settings.solve;
-    file.tetrahedra = own_tetrahedra(root, settings, path.parent_path(), file.notes);
+    file.tetrahedra = own_tetrahedra(root, settings, folder, file.notes);
     file.render = settings.render;
     file.tone_map = settings.tone_map;
     file.view_camera = view_camera(root, settings.camera, cameras);
     if (!emits_light(file.scene))
         file.notes.push_back("nothing gives light: the picture will be black");
     file.effective_toml = toml_text(table);
+    file.animation = read_animation(root);
     return file;
+}
+
+toml::table table_of(const std::filesystem::path& path, const std::vector<std::string>& overrides) {
+    toml::table table = parse_toml_file(path, "scene");
+    for (const std::string& override : overrides) apply_override(table, override);
+    return table;
+}
+
+// What a track gave is no --set: a complaint about it names the track's place, and the frame.
+SceneFile read_frame(const std::filesystem::path& path, std::vector<std::string> overrides,
+                     const std::vector<FrameSetting>& settings, Surfaces surfaces) {
+    for (const auto& setting : settings) overrides.push_back(setting.text());
+    try {
+        return read_table(table_of(path, overrides), path.parent_path(), surfaces);
+    } catch (const mesh::InputError& error) {
+        const std::string message = error.what();
+        for (const auto& setting : settings) {
+            const std::string place = "--set " + setting.text() + ": ";
+            if (message.starts_with(place))
+                fail_at(setting.place,
+                        fmt::format("in frame {} of the animation, {}: {}", setting.frame,
+                                    setting.text(), message.substr(place.size())));
+        }
+        throw mesh::InputError(message + (settings.empty()
+                                              ? std::string()
+                                              : fmt::format(" (In frame {} of the animation.)",
+                                                            settings.front().frame)));
+    }
+}
+
+// Every frame whose values are not those of the one before. Surfaces are read again where a track
+// moves one: files of them may be large.
+void check_frames(const std::filesystem::path& path, const std::vector<std::string>& overrides,
+                  const Animation& animation) {
+    const bool moved =
+        std::any_of(animation.tracks.begin(), animation.tracks.end(), [](const Track& track) {
+            return track.key.starts_with("surface") || track.key.starts_with("\"");
+        });
+    std::string before;
+    for (std::size_t frame = 0; frame < animation.frames; ++frame) {
+        const auto settings = settings_of_frame(animation, frame);
+        std::string values;
+        for (const auto& setting : settings) values += setting.text() + "\n";
+        if (frame > 0 && values == before) continue;
+        before = values;
+        read_frame(path, overrides, settings, moved ? Surfaces::read : Surfaces::left_out);
+    }
+}
+
+}  // namespace
+
+SceneFile read_scene_file(const std::filesystem::path& path,
+                          const std::vector<std::string>& overrides) {
+    SceneFile file = read_table(table_of(path, overrides), path.parent_path(), Surfaces::read);
+    if (file.animation) check_frames(path, overrides, *file.animation);
+    return file;
+}
+
+SceneFile read_scene_frame(const std::filesystem::path& path,
+                           const std::vector<std::string>& overrides, const Animation& animation,
+                           std::size_t frame) {
+    return read_frame(path, overrides, settings_of_frame(animation, frame), Surfaces::read);
 }
 
 ViewSettings read_view_settings(const std::string& toml,
@@ -184,12 +244,12 @@ ViewSettings read_view_settings(const std::string& toml,
 std::string scene_file_reference() {
     std::string text;
     for (const KeyTable* table :
-         {&keys::root(),      &keys::material(),     &keys::surface(), &keys::cuboid(),
-          &keys::rectangle(), &keys::face_opening(), &keys::opening(), &keys::rotate(),
-          &keys::medium(),    &keys::extinction(),   &keys::phase(),   &keys::light(),
-          &keys::sun(),       &keys::point(),        &keys::spot(),    &keys::environment(),
-          &keys::camera(),    &solve_keys(),         &render_keys(),   &keys::grey_gases(),
-          &keys::grey_gas()}) {
+         {&keys::root(),      &keys::material(),     &keys::surface(),        &keys::cuboid(),
+          &keys::rectangle(), &keys::face_opening(), &keys::opening(),        &keys::rotate(),
+          &keys::medium(),    &keys::extinction(),   &keys::phase(),          &keys::light(),
+          &keys::sun(),       &keys::point(),        &keys::spot(),           &keys::environment(),
+          &keys::camera(),    &solve_keys(),         &render_keys(),          &keys::grey_gases(),
+          &keys::grey_gas(),  &keys::animation(),    &keys::animation_track()}) {
         text += fmt::format("### {}\n\n| key | value | default | meaning |\n|---|---|---|---|\n",
                             table->title);
         for (const Key& key : table->keys) {

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "cli/animation.h"
 #include "radiosity/options.h"
 #include "radiosity/scene.h"
 #include "render/camera.h"
@@ -22,14 +24,23 @@ struct SceneFile {
     render::ToneMapOptions tone_map;
     std::vector<std::string> notes;  // what was mended: "part.obj: welded 12 of 48 vertices"
     std::string effective_toml;      // the scene as TOML with the overrides applied
+    std::optional<Animation> animation;
 };
 
 // Reads a scene file, with `overrides` ("material.plaster.reflectance=0.3") applied before.
 // Throws mesh::InputError: "file:line:column: what is wrong (the value), in which named thing. What
 // to do."; for an overridden value the place is "--set key=value".
 // What needs the mesh to be seen (a medium's point in a wall, say) make_enclosure finds out.
+// Where the scene has an animation, every frame of it is read as well, so that all are known to be
+// good; what is returned has the values that the file itself gives.
 SceneFile read_scene_file(const std::filesystem::path& path,
                           const std::vector<std::string>& overrides = {});
+
+// The scene in a frame of its animation: the tracks' values are applied after the overrides. Throws
+// as read_scene_file does; a value that a track gave has the track's place, and names its frame.
+SceneFile read_scene_frame(const std::filesystem::path& path,
+                           const std::vector<std::string>& overrides, const Animation& animation,
+                           std::size_t frame);
 
 // What of a scene a picture depends on, beyond the solution.
 struct ViewSettings {

@@ -24,6 +24,7 @@ const KeyTable& root() {
             {"camera", "array of tables", "", "pinhole cameras"},
             {"solve", "table", "", "how the light is computed"},
             {"render", "table", "", "how the picture is made"},
+            {"animation", "table", "", "keys that change in time, for tyndall animate"},
         }};
     return table;
 }
@@ -267,6 +268,33 @@ const KeyTable& camera() {
              "whole angle upright; or fov_x"},
             {"width", "whole number, 1 to 65536 [pixel]", "640", ""},
             {"height", "whole number, 1 to 65536 [pixel]", "480", ""},
+        }};
+    return table;
+}
+
+const KeyTable& animation() {
+    static const KeyTable table{"[animation]",
+                                {
+                                    {"frames", "whole number, 1 to 10000", "required", ""},
+                                    {"fps", "number above 0", "24", "frames a second"},
+                                    {"track", "array of tables", "", "a key each that changes"},
+                                }};
+    return table;
+}
+
+const KeyTable& animation_track() {
+    static const KeyTable table{
+        "[[animation.track]]",
+        {
+            {"key", "string", "required",
+             "any key that --set takes: \"material.lamp.emission\", \"light.sun.sun.direction\""},
+            {"frames", "array of numbers", "", "keyframes, ascending, from 0; or times"},
+            {"times", "array of numbers [s]", "", "keyframes, ascending, from 0; or frames"},
+            {"values", "array", "required",
+             "one a keyframe: numbers, arrays of numbers of one shape, or strings (with "
+             "\"step\")"},
+            {"interpolation", "\"linear\", \"smooth\" or \"step\"", "\"linear\"",
+             "straight between keyframes; with slope 0 at them; each value until the next one"},
         }};
     return table;
 }

@@ -25,5 +25,7 @@ const KeyTable& environment();
 const KeyTable& camera();
 const KeyTable& grey_gases();  // the file that grey_gases names
 const KeyTable& grey_gas();
+const KeyTable& animation();
+const KeyTable& animation_track();
 
 }  // namespace tyndall::cli::keys

@@ -42,4 +42,7 @@ void estimate_errors(const LeafErrors& errors, const std::optional<View>& view, 
 std::optional<ErrorParts> picture_error(const Solution& solution, const LeafErrors& errors,
                                         const View& view);
 
+// L of (30), a value a band [W/m^2/sr]. Cost: 64 × 48 rays a band.
+Spectrum picture_radiance(const Solution& solution, const View& view);
+
 }  // namespace tyndall::radiosity

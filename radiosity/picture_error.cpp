@@ -98,10 +98,9 @@ class ErrorWalk {
     double transmittance_ = 1.0, radiance_ = 0.0, squares_ = 0.0, gathers_ = 0.0, coarse_ = 0.0;
 };
 
-}  // namespace
-
-std::optional<ErrorParts> picture_error(const Solution& solution, const LeafErrors& errors,
-                                        const View& view) {
+// Over the view's rays, in the bands from `first` up to `end`.
+Sums sums_of(const Solution& solution, const LeafErrors& errors, const View& view,
+             std::size_t first, std::size_t end) {
     const mesh::BaseMesh& base = solution.enclosure->mesh;
     const mesh::TetId eye = mesh::locate(base, view.eye);
     std::vector<Sums> lines(down);
@@ -112,7 +111,7 @@ std::optional<ErrorParts> picture_error(const Solution& solution, const LeafErro
             mesh::Ray ray{view.eye, glm::normalize(view.forward + u * view.right + v * view.up)};
             const mesh::Entry entry = mesh::entry_of(base, ray, eye);
             ray.origin += entry.distance * ray.direction;
-            for (std::size_t b = 0; b < solution.enclosure->bands; ++b) {
+            for (std::size_t b = first; b < end; ++b) {
                 if (entry.tet.valid() && !solution.enclosure->solid(entry.tet)) {
                     ErrorWalk(solution, errors, ray, entry.tet, b).add_to(lines[y]);
                 } else {
@@ -126,10 +125,34 @@ std::optional<ErrorParts> picture_error(const Solution& solution, const LeafErro
     // In order: the same bits at any number of threads.
     Sums sum;
     for (const Sums& line : lines) sum += line;
+    return sum;
+}
+
+}  // namespace
+
+std::optional<ErrorParts> picture_error(const Solution& solution, const LeafErrors& errors,
+                                        const View& view) {
+    const Sums sum = sums_of(solution, errors, view, 0, solution.enclosure->bands);
     const double count = static_cast<double>(sum.rays), mean = sum.radiance / count;
     if (!(mean > 0.0)) return {};
     return ErrorParts{std::sqrt(sum.elements / count) / mean, std::sqrt(sum.gathers / count) / mean,
                       std::sqrt(sum.coarse / count) / mean};
+}
+
+Spectrum picture_radiance(const Solution& solution, const View& view) {
+    const std::size_t bands = solution.enclosure->bands;
+    LeafErrors exact;
+    exact.gathers.resize(solution.forest, bands);
+    exact.coarse.resize(solution.forest, bands);
+    exact.zone_elements.resize(solution.forest.zone_count());
+    exact.patch_elements.resize(solution.forest.patch_count());
+    exact.patch_direct.resize(solution.forest.patch_count());
+    Spectrum result;
+    for (std::size_t b = 0; b < bands; ++b) {
+        const Sums sum = sums_of(solution, exact, view, b, b + 1);
+        result.push_back(sum.radiance / static_cast<double>(sum.rays));
+    }
+    return result;
 }
 
 }  // namespace tyndall::radiosity

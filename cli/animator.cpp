@@ -1,0 +1,132 @@
+#include "cli/animator.h"
+
+#include <fmt/format.h>
+
+#include "cli/job.h"
+#include "mesh/input_error.h"
+#include "radiosity/resources.h"
+#include "radiosity/solution_file.h"
+#include "render/image_files.h"
+
+namespace tyndall::cli {
+namespace {
+
+using radiosity::cpu_seconds;
+
+constexpr const char* no_view =
+    "the camera moves while the light stays: elements are refined for the solution as a whole "
+    "(solve.refinement \"adaptive\"), not for one frame's view.";
+
+}  // namespace
+
+Animator::Animator(const std::vector<SceneFile>& frames, AnimationRecord& record,
+                   ProgressLine& progress)
+    : frames_(frames), plan_(plan_animation(frames)), record_(record), progress_(progress) {
+    for (std::size_t s = 0; s < plan_.segments.size(); ++s)
+        segment_.resize(plan_.segments[s].end, s);
+}
+
+std::optional<radiosity::View> Animator::view(std::size_t frame) const {
+    const SceneFile& file = frames_[frame];
+    if (file.view_camera.empty() || plan_.segments[segment_[frame]].camera_moves) return {};
+    return find_camera(file.cameras, file.view_camera).view();
+}
+
+// All sources at their largest tell whether the light of any frame is bounded.
+void Animator::shoot(std::size_t index) {
+    const Segment& segment = plan_.segments[index];
+    const double began = cpu_seconds();
+    const auto scenes = scenes_of(frames_, segment);
+    SceneFile largest = frames_[segment.first];
+    largest.scene = radiosity::group_sources(scenes).largest;
+    const auto enclosure = mesh_scene(largest, progress_);
+    shots_ = radiosity::shoot_units(scenes, *enclosure, largest.solve, view(segment.first),
+                                    progress_.callback());
+    if (progress_.stopped()) return;
+    shot_ = index;
+    UnitsRecord units{segment.first, segment.end, {}, shots_.solves, cpu_seconds() - began};
+    for (const auto& group : shots_.groups.groups) units.groups.push_back(group.sources);
+    record_.add(std::move(units));
+}
+
+void Animator::superpose(std::size_t frame) {
+    const Segment& segment = plan_.segments[segment_[frame]];
+    solution_ = radiosity::superposed(shots_, frame - segment.first, frames_[frame].scene);
+}
+
+void Animator::solve(std::size_t frame) {
+    const SceneFile& file = frames_[frame];
+    solution_ = radiosity::solve_adaptively(mesh_scene(file, progress_), file.solve, view(frame),
+                                            progress_.callback());
+}
+
+const radiosity::Solution& Animator::light(std::size_t frame, FrameRecord& record) {
+    const std::size_t index = segment_[frame];
+    const bool same =
+        solved_ && segment_[*solved_] == index &&
+        radiosity::compare_scenes(frames_[*solved_].scene, frames_[frame].scene).change ==
+            radiosity::SceneChange::nothing;
+    if (plan_.segments[index].superposed && shot_ != index) shoot(index);
+    const double began = cpu_seconds();  // units have a record of their own
+    if (!same && !progress_.stopped()) {
+        solved_.reset();
+        if (plan_.segments[index].superposed)
+            superpose(frame);
+        else
+            solve(frame);
+    }
+    record.done = same ? "kept" : plan_.segments[index].superposed ? "superposed" : "solved";
+    record.cpu_seconds = cpu_seconds() - began;
+    if (!progress_.stopped()) solved_ = frame;
+    return solution_;
+}
+
+// The same in all frames: that of the first picture, unless the scene gives one.
+double Animator::white_of(std::size_t frame, const render::Image& image) {
+    const auto& given = frames_[frame].tone_map.white;
+    if (!record_.white)
+        record_.white =
+            given ? *given : render::automatic_white(image, render::select_layer(image, ""));
+    return given.value_or(*record_.white);
+}
+
+bool Animator::write(std::size_t frame, const radiosity::Solution& solution) {
+    const SceneFile& file = frames_[frame];
+    std::optional<render::Image> image;
+    if (!file.cameras.empty())
+        image = make_picture(solution, find_camera(file.cameras, file.view_camera), file.render,
+                             progress_);
+    if (progress_.stopped()) return false;
+    radiosity::write_solution(record_.solution(frame), solution, attachments_json(file));
+    if (!image) return true;
+    render::ToneMapOptions tone_map = file.tone_map;
+    tone_map.white = white_of(frame, *image);
+    render::write_image(record_.picture(frame, "exr"), *image);
+    render::write_image(record_.picture(frame, "png"), render::tone_map(*image, tone_map));
+    return true;
+}
+
+bool Animator::make(std::size_t frame) {
+    progress_.begin_with(fmt::format("frame {} of {}: ", frame + 1, frames_.size()));
+    try {
+        FrameRecord record;
+        record.changed = plan_.changed[frame];
+        const auto& solution = light(frame, record);
+        if (progress_.stopped()) return false;
+        const double began = cpu_seconds();
+        if (!write(frame, solution)) return false;
+        record.picture_cpu_seconds = cpu_seconds() - began;
+        record.estimated_error = solution.report.estimated_error;
+        record.patches = solution.report.patches;
+        record.zones = solution.report.zones;
+        record.warnings = solution.report.warnings;
+        if (plan_.segments[segment_[frame]].camera_moves) record.warnings.push_back(no_view);
+        record_.add(frame, std::move(record));
+        return true;
+    } catch (const mesh::InputError& error) {
+        throw mesh::InputError(
+            fmt::format("in frame {} of the animation: {}", frame, error.what()));
+    }
+}
+
+}  // namespace tyndall::cli

@@ -1,0 +1,45 @@
+// Makes the frames of an animation, one after the other.
+#pragma once
+
+#include <optional>
+
+#include "cli/animation_plan.h"
+#include "cli/animation_record.h"
+#include "cli/progress.h"
+#include "radiosity/incremental_radiosity.h"
+#include "render/image.h"
+
+namespace tyndall::cli {
+
+class Animator {
+  public:
+    // `frames`: of the whole animation.
+    Animator(const std::vector<SceneFile>& frames, AnimationRecord& record, ProgressLine& progress);
+
+    // Purpose: the frame's solution and pictures as files, and its record. False where a stop was
+    //   asked for before it was whole: nothing of it is left then.
+    // Errors: mesh::InputError, which names the frame.
+    bool make(std::size_t frame);
+
+  private:
+    // A solution of a frame's scene, by what of this job's is still good.
+    const radiosity::Solution& light(std::size_t frame, FrameRecord& record);
+    void solve(std::size_t frame);
+    void superpose(std::size_t frame);
+    void shoot(std::size_t segment);
+    bool write(std::size_t frame, const radiosity::Solution& solution);
+    double white_of(std::size_t frame, const render::Image& image);
+    std::optional<radiosity::View> view(std::size_t frame) const;
+
+    const std::vector<SceneFile>& frames_;
+    AnimationPlan plan_;
+    AnimationRecord& record_;
+    ProgressLine& progress_;
+    std::vector<std::size_t> segment_;  // of each frame
+    std::optional<std::size_t> shot_;   // the segment whose units there are
+    radiosity::UnitShots shots_;
+    std::optional<std::size_t> solved_;  // the frame whose solution there is
+    radiosity::Solution solution_;
+};
+
+}  // namespace tyndall::cli
