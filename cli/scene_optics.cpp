@@ -126,10 +126,11 @@ void add_gases(const TableReader& reader, const radiosity::Scene& scene,
                         "grey_gases = \"file.toml\", or give extinction.",
                         reader.thing()));
     if (!medium.shape.empty())
-        reader.fail("partial_pressure",
-                    fmt::format("partial_pressure of {} is the same everywhere, its extinction "
-                                "varies in space. Give one of the two, or one number of extinction.",
-                                reader.thing()));
+        reader.fail(
+            "partial_pressure",
+            fmt::format("partial_pressure of {} is the same everywhere, its extinction "
+                        "varies in space. Give one of the two, or one number of extinction.",
+                        reader.thing()));
     const double pressure = reader.number("partial_pressure", quantity);
     for (std::size_t b = 1; b < scene.bands; ++b) {
         const double scattering = medium.extinction[b] * medium.albedo[b];

@@ -107,8 +107,8 @@ bool shines(const SurfaceSide& side);
 // Errors: mesh::InputError with file:line:column (Scene's `where`) and name: what cannot be meshed;
 //   a medium point in no region, on a wall or outside; two media that claim one region; a power on
 //   a surface without area; a closed region with a source, a flux or heat, but no absorption and no
-//   opening; a file of tetrahedra that cannot be read or does not follow the surfaces; an extinction
-//   below 0 or not finite somewhere, or one that varies beside a heat source.
+//   opening; a file of tetrahedra that cannot be read or does not follow the surfaces; an
+//   extinction below 0 or not finite somewhere, or one that varies beside a heat source.
 // Cost: dominated by CGAL and TetGen; about 1 s for a thousand facets.
 Enclosure make_enclosure(const Scene& scene, const EnclosureOptions& options = {});
 

@@ -7,8 +7,8 @@
 
 namespace tyndall::radiosity {
 
-// A medium of the enclosure with its reduced coefficients, absorption and scattering κ_s (1 − g); of
-// one that varies, with its shape left out.
+// A medium of the enclosure with its reduced coefficients, absorption and scattering κ_s (1 − g);
+// of one that varies, with its shape left out.
 MediumOptics medium_optics(const Medium& medium, const Enclosure& enclosure);
 
 // Gives `enclosure.media` their `varying` extinction and its mean, or, where all samples are alike,
