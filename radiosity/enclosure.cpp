@@ -5,10 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <map>
-#include <numbers>
 
 #include "mesh/input_error.h"
+#include "radiosity/enclosure_emissions.h"
 #include "radiosity/medium_optics.h"
 #include "radiosity/own_tetrahedra.h"
 #include "radiosity/steady_state.h"
@@ -54,11 +53,6 @@ glm::dvec3 area_vector(const mesh::Polygon& polygon) {
     return sum;
 }
 
-// The [[surface]] that a face belongs to: "lamp" of "lamp.top".
-std::string whole_surface(const std::string& name) {
-    return name.substr(0, name.find('.'));
-}
-
 Point position(const Light& light) {
     if (const auto* point = std::get_if<PointLight>(&light.source)) return point->position;
     if (const auto* spot = std::get_if<SpotLight>(&light.source)) return spot->position;
@@ -99,7 +93,6 @@ class Binder {
         find_solids();
         fill_media();
         bind_sides();
-        resolve_power();
     }
 
   private:
@@ -199,37 +192,26 @@ class Binder {
         return fmt::format(" (\"{}\")", scene_.surfaces[polygons_.surface[polygons[0].value]].name);
     }
 
-    void prescribe(const Spectrum& flux, SurfaceSide& side) const {
-        if (e_.settles()) {
-            side.settled_flux = flux[0];
-            return;
-        }
-        side.reflectance.assign(e_.bands, 1.0);
-        for (std::size_t b = 0; b < e_.bands; ++b) side.emission[b] = flux[b] / std::numbers::pi;
-    }
-
-    // The side's optics; `index` of (surface, side) is made when it first faces light.
+    // The side's optics but for its emission; `index` of (surface, side) is made when it first
+    // faces light.
     std::uint32_t side_index(std::size_t surface, Side side) {
         auto& index = indices_[2 * surface + (side == Side::back)];
         if (index != none) return index;
         index = static_cast<std::uint32_t>(e_.sides.size());
         const Surface& s = scene_.surfaces[surface];
-        const Material* material = &scene_.materials[*s.material];
-        bool emits = side == Side::front || material->emits == EmittingSides::both;
-        if (side == Side::back && material->back) {
-            material = &scene_.materials[*material->back];
-            emits = true;
-        }
+        const auto [material, emits] = material_of_side(scene_, surface, side);
         SurfaceSide result;
         result.name = s.name + (side == Side::front ? "+" : "-");
         result.surface = surface;
         result.side = side;
         result.reflectance = material->reflectance;
         for (const double rho : material->reflectance) result.emissivity.push_back(1.0 - rho);
-        result.emission =
-            emits && !material->emission.empty() ? material->emission : Spectrum(e_.bands, 0.0);
-        if (emits && !material->flux.empty()) prescribe(material->flux, result);
-        materials_.push_back(emits ? material : nullptr);
+        if (emits && !material->flux.empty()) {
+            if (e_.settles())
+                result.settled_flux = material->flux[0];
+            else
+                result.reflectance.assign(e_.bands, 1.0);
+        }
         e_.sides.push_back(std::move(result));
         return index;
     }
@@ -250,48 +232,13 @@ class Binder {
         }
     }
 
-    // A power is that of the whole surface: all its faces share it by area.
-    void resolve_power() {
-        std::map<std::string, std::vector<std::uint32_t>> emitting;
-        for (std::size_t s = 0; s < scene_.surfaces.size(); ++s) {
-            const Surface& surface = scene_.surfaces[s];
-            if (!surface.material || scene_.materials[*surface.material].power.empty()) continue;
-            auto& sides = emitting[whole_surface(surface.name)];
-            for (const int k : {0, 1})
-                if (const auto index = indices_[2 * s + k];
-                    index != none && materials_[index] == &scene_.materials[*surface.material])
-                    sides.push_back(index);
-        }
-        for (const auto& [name, sides] : emitting) {
-            double area = 0.0;
-            for (const auto index : sides) area += e_.sides[index].area;
-            if (!(area > 0.0)) throw no_area(name);
-            for (const auto index : sides)
-                for (std::size_t b = 0; b < e_.bands; ++b)
-                    e_.sides[index].emission[b] =
-                        materials_[index]->power[b] / (std::numbers::pi * area);
-        }
-    }
-
-    InputError no_area(const std::string& name) const {
-        const auto surface =
-            std::find_if(scene_.surfaces.begin(), scene_.surfaces.end(),
-                         [&](const Surface& s) { return whole_surface(s.name) == name; });
-        return InputError(fmt::format(
-            "{} is to emit a power, but no part of its emitting side faces a region that light can "
-            "be "
-            "in. Turn it (front = right-hand rule of the corners), or set emits = \"both\".",
-            named("surface", name, surface->where)));
-    }
-
     const Scene& scene_;
     const Polygons& polygons_;
     const mesh::ConformingComplex& complex_;
     const SampleOptions& sampling_;
     Enclosure& e_;
     const BaseMesh& mesh_;
-    std::vector<std::uint32_t> indices_;      // 2 × surface + back → side
-    std::vector<const Material*> materials_;  // of each side, null where it does not emit
+    std::vector<std::uint32_t> indices_;  // 2 × surface + back → side
 };
 
 bool asks_for_temperatures(const Scene& scene) {
@@ -326,10 +273,8 @@ Enclosure make_enclosure(const Scene& scene, const EnclosureOptions& options) {
                   mesh::tetrahedralize(complex, polygons.list, options.tetrahedralize), {}, {}};
     enclosure.mesh = std::move(fitted.mesh);
     mesh::find_regions(enclosure.mesh);
-    enclosure.lights = scene.lights;
-    enclosure.environment =
-        scene.environment.empty() ? Spectrum(scene.bands, 0.0) : scene.environment;
     Binder(scene, polygons, complex, options.extinction, enclosure).bind();
+    bind_emissions(scene, enclosure);
     refuse_unsteady(scene, enclosure);
     if (own) note_own_tetrahedra(fitted, options.tetrahedra.string(), enclosure);
     for (const Medium& medium : scene.media)

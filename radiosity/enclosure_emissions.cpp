@@ -14,18 +14,6 @@ namespace {
 
 using mesh::InputError;
 
-// The material of a surface's side, and whether it emits there.
-struct SideMaterial {
-    const Material* material = nullptr;
-    bool emits = false;
-};
-
-SideMaterial material_of_side(const Scene& scene, std::size_t surface, Side side) {
-    const Material& material = scene.materials[*scene.surfaces[surface].material];
-    if (side == Side::back && material.back) return {&scene.materials[*material.back], true};
-    return {&material, side == Side::front || material.emits == EmittingSides::both};
-}
-
 // The [[surface]] that a face belongs to: "lamp" of "lamp.top".
 std::string whole_surface(const std::string& name) {
     return name.substr(0, name.find('.'));
@@ -69,11 +57,20 @@ void bind_powers(const Scene& scene, Enclosure& e) {
 
 }  // namespace
 
+SideMaterial material_of_side(const Scene& scene, std::size_t surface, Side side) {
+    const Material& material = scene.materials[*scene.surfaces[surface].material];
+    if (side == Side::back && material.back) return {&scene.materials[*material.back], true};
+    return {&material, side == Side::front || material.emits == EmittingSides::both};
+}
+
 void bind_emissions(const Scene& scene, Enclosure& e) {
     for (SurfaceSide& side : e.sides) {
         const auto [material, emits] = material_of_side(scene, side.surface, side.side);
         side.emission =
             emits && !material->emission.empty() ? material->emission : Spectrum(e.bands, 0.0);
+        if (emits && !material->flux.empty() && !e.settles())
+            for (std::size_t b = 0; b < e.bands; ++b)
+                side.emission[b] = material->flux[b] / std::numbers::pi;
     }
     bind_powers(scene, e);
     for (std::size_t m = 0; m < e.media.size(); ++m)
