@@ -10,8 +10,13 @@ namespace tyndall::radiosity {
 void write_grid(Hdf5Writer& file, const Solution& solution);
 
 // /tyndall/enclosure: mesh, optics, lights.
+inline constexpr const char* enclosure_folder = "/tyndall/enclosure";
 void write_enclosure(Hdf5Writer& file, const Enclosure& enclosure);
 Enclosure read_enclosure(const Hdf5Reader& file);
+
+// Of it, all but the mesh.
+void write_optics(Hdf5Writer& file, const Enclosure& enclosure);
+void read_optics(const Hdf5Reader& file, Enclosure& enclosure);
 
 // /tyndall/forest: bisections, in order.
 void write_forest(Hdf5Writer& file, const Forest& forest);

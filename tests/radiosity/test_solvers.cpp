@@ -4,8 +4,6 @@
 #include <numbers>
 
 #include "mesh/input_error.h"
-#include "radiosity/exchange_walked.h"
-#include "radiosity/report_json.h"
 #include "radiosity/solver_bicgstab.h"
 #include "radiosity/solver_direct.h"
 #include "radiosity/solver_gauss_seidel.h"
@@ -14,54 +12,15 @@
 #include "radiosity/solver_progressive_refinement.h"
 #include "radiosity/solvers.h"
 #include "support/catch.h"
-#include "support/cube.h"
+#include "support/foggy_system.h"
 
 using namespace tyndall;
 using namespace tyndall::radiosity;
 
 namespace {
 
-enum class Rows { constant, linear, detail, smoothed };
-
-// A cube of fog with a lit floor: 48 zones and 48 patches of 64 rays each.
-struct FoggyBox {
-    Enclosure enclosure;
-    Forest forest;
-    Elements elements;
-    ExchangeAreas areas;
-
-    explicit FoggyBox(double albedo, double reflectance, Rows rows = Rows::constant,
-                      double extinction = 1.0)
-        : enclosure(test::cube_enclosure({.extinction = extinction,
-                                          .albedo = albedo,
-                                          .reflectance = reflectance,
-                                          .bottom_emission = 1.0,
-                                          .size = {2, 2, 2}})),
-          forest(enclosure.mesh),
-          elements(elements_of_leaves(enclosure, forest)),
-          areas(all_rows(exchange_walked, {enclosure, forest, elements}, options(rows))) {}
-
-    static ExchangeOptions options(Rows rows) {
-        ExchangeOptions options{.rays = 64, .progress = {}};
-        if (rows == Rows::linear) options.radiance = Radiance::linear;
-        if (rows == Rows::detail) options.detail = 4.0;
-        if (rows == Rows::smoothed) options.settings.smoothing = Smoothing::least_squares;
-        return options;
-    }
-
-    LinearProblem problem() const { return {elements, areas, 0, elements.emission}; }
-
-    // The same, with rows made when they are asked for.
-    LinearProblem on_the_fly() const {
-        LinearProblem problem{elements, none_kept, 0, elements.emission};
-        problem.rows = [this](std::span<const ElementId> rows, const RowSink& sink) {
-            exchange_walked({enclosure, forest, elements}, rows, options(Rows::constant), sink);
-        };
-        return problem;
-    }
-
-    ExchangeAreas none_kept;
-};
+using test::FoggyBox;
+using test::Rows;
 
 double largest_difference(const std::vector<double>& a, const std::vector<double>& b) {
     REQUIRE(a.size() == b.size());
@@ -362,54 +321,6 @@ TEST_CASE("A caller can end every solver that iterates", "[solvers]") {
         CHECK_FALSE(result.converged);
         CHECK(result.stopped);
     }
-}
-
-TEST_CASE("Histories are thinned, and keep both ends", "[solvers]") {
-    const FoggyBox box(0.99, 0.99);
-    const SolverResult result =
-        solve_jacobi(box.problem(), {.tolerance = 1e-6, .iterations = 10'000});
-    REQUIRE(result.converged);
-    CHECK(result.iterations > 1000);
-    CHECK(result.history.size() <= SolverHistory::most);
-    CHECK(result.history.size() >= SolverHistory::most / 2);
-    CHECK(result.history.front().iterations == 0);
-    CHECK(result.history.back().iterations == result.iterations);
-    for (std::size_t k = 1; k < result.history.size(); ++k) {
-        CHECK(result.history[k].iterations > result.history[k - 1].iterations);
-        CHECK(result.history[k].cpu_seconds >= result.history[k - 1].cpu_seconds);
-    }
-    // In the end what has been brought in has ended somewhere, as far as rows are reciprocal.
-    CHECK(std::abs(result.history.back().energy_balance) < 0.05);
-    CHECK(result.history.back().unshot_power < 1e-4 * result.history.front().unshot_power);
-}
-
-TEST_CASE("A report keeps its solver's history", "[solvers]") {
-    const FoggyBox box(0.9, 0.8);
-    const SolverResult result = solve_progressive_refinement(box.problem(), {.tolerance = 1e-3});
-    Report report;
-    report.solver = {"progressive_refinement",
-                     result.iterations,
-                     result.residual,
-                     result.converged,
-                     result.shots,
-                     result.history.back().unshot_power,
-                     result.history};
-    const Report again = report_from_json(report_to_json(report, Costs::kept));
-    CHECK(again.solver.shots == result.shots);
-    CHECK(again.solver.unshot_power == report.solver.unshot_power);
-    REQUIRE(again.solver.history.size() == result.history.size());
-    for (std::size_t k = 0; k < result.history.size(); ++k) {
-        const SolverStep &a = result.history[k], &b = again.solver.history[k];
-        CHECK(a.iterations == b.iterations);
-        CHECK(a.shots == b.shots);
-        CHECK(a.residual == b.residual);
-        CHECK(a.unshot_power == b.unshot_power);
-        CHECK(a.energy_balance == b.energy_balance);
-        CHECK(a.ambient == b.ambient);
-        CHECK(a.cpu_seconds == b.cpu_seconds);
-    }
-    // Solution files are the same at any number of threads: no seconds in them.
-    CHECK(report_to_json(report, Costs::left_out).find("seconds") == std::string::npos);
 }
 
 TEST_CASE("Solvers by name", "[solvers]") {
