@@ -76,13 +76,16 @@ class Loop {
           direct_(*enclosure_, mesh_, light_, boundaries_ ? &*boundaries_ : nullptr),
           leaf_light_(*enclosure_, mesh_, direct_, options.radiance) {
         if (options_.refinement < Refinement::view) view_.reset();
+        if (kept_.keep) light_.keep_in(&kept_.keep->direct);
+        if (kept_.moved)
+            light_.take_from(kept_.moved->direct, kept_.moved->enclosure->mesh.bodies);
         begin_pass();
     }
 
     Solution run() {
         make_initial_mesh();
         Elements elements = start_elements(*enclosure_, mesh_.forest(), options_.start);
-        if (adaptive() && asks_for(options_, "optical_thickness") &&
+        if (!kept_.moved && adaptive() && asks_for(options_, "optical_thickness") &&
             options_.start != Start::single_zone && refine_thick_zones(elements))
             elements = elements_of_leaves(*enclosure_, mesh_.forest());
         for (std::size_t promotions = options_.promotions;; --promotions) {
@@ -98,18 +101,20 @@ class Loop {
     // Coarse solution of the elements, refinement to `looser` times the error, gather.
     Solution turn(Elements elements, double looser, bool last) {
         const double goal = looser * looser * options_.error * options_.error;
-        CoarseSolution coarse(*enclosure_, mesh_.forest(), std::move(elements), options_,
-                              progress_);
+        std::optional<KeptRows> rows;
+        if (kept_.moved)
+            rows.emplace(KeptRows{{*kept_.moved->enclosure, kept_.moved->coarse_forest,
+                                   kept_.moved->elements},
+                                  kept_.moved->areas});
+        if (kept_.keep) kept_.keep->coarse_forest = mesh_.forest();
+        CoarseSolution coarse(*enclosure_, mesh_.forest(), std::move(elements), options_, progress_,
+                              rows ? &*rows : nullptr);
         rays_ += coarse.rays();
-        direct_.update();
-        solve(coarse);
-        rate(coarse);
-        squared_error_ = 0.0;
-        end_pass("coarse solution");
-        show("coarse solution", coarse);
+        begin(coarse);
 
         const Importance importance(*enclosure_, mesh_.forest(), view_, scale_);
         if (last && kept_.begin_with) mesh_.replay(kept_.begin_with->forest);
+        if (kept_.moved) mesh_.replay(kept_.moved->forest);
         direct_.update();
         note(direct_.refine(importance, adaptive() ? direct_share * goal : 1e300, limits(0.8),
                             progress_,
@@ -147,11 +152,32 @@ class Loop {
         return solution;
     }
 
+    // A first solution; of bodies that have moved the one before is near enough to weigh errors by.
+    void begin(CoarseSolution& coarse) {
+        if (kept_.moved) {
+            scale_ = kept_.moved->scale;
+            if (!(scale_.picture > 0.0)) view_.reset();
+        } else {
+            direct_.update();
+            solve(coarse);
+            rate(coarse);
+        }
+        squared_error_ = 0.0;
+        end_pass("coarse solution");
+        if (!kept_.moved) show("coarse solution", coarse);
+    }
+
     // Indirect light of the leaves: zones first, for half of the goal, then patches, which get what
     // zones leave.
     void gather(const CoarseSolution& coarse, const LitPatches& lit, const Importance& importance,
                 double goal, IndirectRefiner& indirect) {
         IndirectSources sources{leaf_light_.sources(coarse, &lit), &lit, gather_detail()};
+        std::optional<GatherChange> change;
+        if (kept_.moved)
+            change.emplace(*kept_.moved, *enclosure_, gathered_from(coarse, incident_direct_));
+        mesh_.samples().take_from(change ? &*change : nullptr);
+        mesh_.samples().keep_in(kept_.keep ? &kept_.keep->gathers : nullptr);
+        const Fields in_zones = kept_.keep ? sources.fields : Fields{};
         const auto zones =
             indirect.refine_zones(sources, importance, 0.5 * goal, limits(1.0), progress_);
         note(zones);
@@ -163,6 +189,20 @@ class Loop {
                                      progress_));
         direct_.update();
         direct_.sample_means();
+        mesh_.samples().take_from(nullptr);
+        if (kept_.keep)
+            keep(coarse, in_zones, sources);
+    }
+
+    void keep(const CoarseSolution& coarse, const Fields& in_zones,
+              const IndirectSources& on_patches) {
+        KeptLight& kept = *kept_.keep;
+        light_.keep_in(nullptr);
+        kept.elements = coarse.elements();
+        kept.areas = coarse.all_areas();
+        kept.gathered_from = gathered_from(coarse, incident_direct_);
+        kept.scale = scale_;
+        kept.finish(enclosure_, mesh_.forest(), in_zones, on_patches.fields, on_patches.detail);
     }
 
     // Before the last turn the mesh to begin with is not in yet: what there is, is coarser.
@@ -242,6 +282,7 @@ class Loop {
 void Loop::make_initial_mesh() {
     // Fine enough for smooth indirect light, coarse enough that rows cost about a second.
     ElementMesh::InitialSize size{0.0, 4000, 1500};
+    if (kept_.moved) return mesh_.replay(kept_.moved->coarse_forest);
     if (options_.start == Start::single_zone) return;
     if (options_.element_size > 0.0)
         size = {options_.element_size, options_.max_elements, options_.max_elements};

@@ -31,7 +31,8 @@ CoarseSolution::CoarseSolution(const Enclosure& enclosure, const Forest& forest,
     : CoarseSolution(enclosure, forest, elements_of_leaves(enclosure, forest), options, progress) {}
 
 CoarseSolution::CoarseSolution(const Enclosure& enclosure, const Forest& forest, Elements elements,
-                               const SolveOptions& options, const ProgressCallback& progress)
+                               const SolveOptions& options, const ProgressCallback& progress,
+                               const KeptRows* kept)
     : enclosure_(enclosure),
       forest_(forest),
       options_(options),
@@ -61,7 +62,15 @@ CoarseSolution::CoarseSolution(const Enclosure& enclosure, const Forest& forest,
         chosen.detail = options.row_detail;
         chosen.radiance = method.moments ? options.radiance : Radiance::constant;
         chosen.progress = progress;
-        areas_.push_back(all_rows(method.method, {enclosure, forest, elements_}, chosen));
+        const Discretization now{enclosure, forest, elements_};
+        if (kept) {
+            std::atomic<std::size_t> walked = 0;
+            areas_.push_back(moved_rows(
+                now, {kept->discretization, kept->areas[areas_.size()]}, chosen, walked));
+            rays_ += walked;
+            continue;
+        }
+        areas_.push_back(all_rows(method.method, now, chosen));
         rays_ += elements_.size() * options.rays;
     }
 }

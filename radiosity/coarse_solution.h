@@ -2,6 +2,7 @@
 // is asked for), solved again whenever direct light is known better.
 #pragma once
 
+#include "radiosity/exchange_moved.h"
 #include "radiosity/options.h"
 #include "radiosity/settled_emission.h"
 #include "radiosity/solution.h"
@@ -11,19 +12,29 @@ namespace tyndall::radiosity {
 
 struct NamedSolver;
 
+// Rows of the same elements before bodies have moved, of each distinct extinction.
+struct KeptRows {
+    Discretization discretization;
+    const std::vector<ExchangeAreas>& areas;
+};
+
 class CoarseSolution {
   public:
     // The elements are the forest's leaves now; rows are made here, once a distinct extinction.
     CoarseSolution(const Enclosure& enclosure, const Forest& forest, const SolveOptions& options,
                    const ProgressCallback& progress);
-    // With elements of the caller's, clusters for instance.
+    // With elements of the caller's, clusters for instance. `kept`: rows that what has moved since
+    // is corrected in (exchange_moved.h), in place of rows made anew.
     CoarseSolution(const Enclosure& enclosure, const Forest& forest, Elements elements,
-                   const SolveOptions& options, const ProgressCallback& progress);
+                   const SolveOptions& options, const ProgressCallback& progress,
+                   const KeptRows* kept = nullptr);
 
     const Elements& elements() const { return elements_; }
     const Forest& forest() const { return forest_; }
     // The rows; none where shots are on the fly.
     const ExchangeAreas& areas(std::size_t band) const { return areas_[matrix_[band]]; }
+    // Those of each distinct extinction.
+    const std::vector<ExchangeAreas>& all_areas() const { return areas_; }
     // S_i,out [m^2].
     double to_outside(std::size_t element, std::size_t band) const;
     // max_i |Σ_j S_ij − c_i| / c_i of the rows that are kept, or have been made so far [-].

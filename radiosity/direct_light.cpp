@@ -111,6 +111,33 @@ Spectrum scaled(const Spectrum& spectrum, double factor) {
 
 }  // namespace
 
+// Where a light is, as far as a body can come between: a sphere, or a cone of directions.
+struct LightCone {
+    bool infinite = false;
+    Point centre{0};         // [m]
+    double radius = 0.0;     // [m]
+    Direction towards{0};    // unit, of an infinite one
+    double half_angle = 0.0;  // of its cone [rad]
+
+    // Whether a body's sphere meets the cone from x over the light.
+    bool passes(Point x, const mesh::Body& body) const {
+        const Direction to = body.centre - x;
+        const double far = glm::length(to);
+        if (far <= body.radius) return true;
+        const double wide = std::asin(body.radius / far);
+        if (infinite)
+            return std::acos(std::clamp(glm::dot(to, towards) / far, -1.0, 1.0)) <=
+                   wide + half_angle + 1e-7;
+        const Direction light = centre - x;
+        const double distance = glm::length(light);
+        if (distance <= radius) return true;
+        if (far - body.radius > distance + radius) return false;
+        const double cosine = glm::dot(to, light) / (far * distance);
+        return std::acos(std::clamp(cosine, -1.0, 1.0)) <=
+               wide + std::asin(radius / distance) + 1e-7;
+    }
+};
+
 struct DirectLight::Data {
     const Enclosure& enclosure;
     DirectLightOptions options;
@@ -118,6 +145,7 @@ struct DirectLight::Data {
     std::vector<Sun> beams;  // without a diameter; directions are unit
     std::vector<PointLight> points;
     std::vector<SpotLight> spots;
+    std::vector<LightCone> cones;
     std::vector<LightPower> powers;
     mesh::Occluders inner;  // what can come between two points that light reaches
     mesh::Occluders all;    // and between such a point and infinity
@@ -134,6 +162,7 @@ struct DirectLight::Data {
           tolerance(on_plane * diagonal(enclosure.mesh)) {
         if (options.emitters) add_emitters();
         for (const Light& light : enclosure.lights) add_light(light);
+        find_cones();
         if (areas.empty() && beams.empty() && points.empty() && spots.empty()) return;
         const auto polygons =
             occluding_polygons(enclosure, merge_tolerance * diagonal(enclosure.mesh));
@@ -146,6 +175,7 @@ struct DirectLight::Data {
     void add_emitter(const SurfaceSide& side,
                      const std::vector<std::array<mesh::VertexId, 3>>& triangles);
     void add_light(const Light& light);
+    void find_cones();
 
     void gather(const Receiver& receiver, std::span<double> incident) const;
     void from_area(const Receiver& receiver, const AreaLight& light, Scratch& scratch,
@@ -212,6 +242,29 @@ void DirectLight::Data::add_light(const Light& light) {
         if (shines(spot->intensity)) spots.push_back(*spot);
     }
     powers.push_back({light.name, std::move(power)});
+}
+
+void DirectLight::Data::find_cones() {
+    for (const AreaLight& area : areas) {
+        LightCone cone;
+        for (const Point& corner : area.corners)
+            cone.centre += corner / static_cast<double>(area.corners.size());
+        if (area.reach == mesh::Reach::infinite) {
+            cone.infinite = true;
+            cone.towards = glm::normalize(cone.centre);
+            for (const Point& corner : area.corners)
+                cone.half_angle = std::max(
+                    cone.half_angle,
+                    std::acos(std::clamp(glm::dot(glm::normalize(corner), cone.towards), -1.0, 1.0)));
+        } else {
+            for (const Point& corner : area.corners)
+                cone.radius = std::max(cone.radius, glm::distance(corner, cone.centre));
+        }
+        cones.push_back(cone);
+    }
+    for (const Sun& sun : beams) cones.push_back({true, Point(0), 0.0, -sun.direction, 0.0});
+    for (const PointLight& light : points) cones.push_back({false, light.position});
+    for (const SpotLight& light : spots) cones.push_back({false, light.position});
 }
 
 // Closed form of (1) for τ = 1 and unit radiance [-].
@@ -326,11 +379,31 @@ bool DirectLight::empty() const {
 }
 
 void DirectLight::at_zone(Point x, TetId tet, std::span<double> incident) const {
-    data_->gather({x, tet}, incident);
+    const Direction none(0.0);
+    if (!is_known(x, none, incident)) data_->gather({x, tet}, incident);
+    if (keep_) keep_->keep(x, none, incident);
 }
 
 void DirectLight::at_patch(Point x, Direction n, TetId tet, std::span<double> incident) const {
-    data_->gather({x, tet, n, true}, incident);
+    if (!is_known(x, n, incident)) data_->gather({x, tet, n, true}, incident);
+    if (keep_) keep_->keep(x, n, incident);
+}
+
+void DirectLight::take_from(const PlaceMemory& known, const std::vector<mesh::Body>& moved) {
+    known_ = &known;
+    moved_ = moved;
+    const auto& own = data_->enclosure.mesh.bodies;
+    moved_.insert(moved_.end(), own.begin(), own.end());
+}
+
+bool DirectLight::is_known(Point x, Direction normal, std::span<double> incident) const {
+    const double* known = known_ ? known_->find(x, normal) : nullptr;
+    if (!known) return false;
+    for (const LightCone& cone : data_->cones)
+        for (const mesh::Body& body : moved_)
+            if (cone.passes(x, body)) return false;
+    std::copy_n(known, incident.size(), incident.begin());
+    return true;
 }
 
 const std::vector<LightPower>& DirectLight::powers() const {

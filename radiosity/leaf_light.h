@@ -31,9 +31,7 @@ class LeafLight {
     }
 
     // The mean of H^A over a leaf as an element's capacity weighs it: with κ where that varies.
-    WeighedMean weighed_direct(PatchId leaf, std::size_t band) {
-        return {mesh_.forest().area(leaf), direct_.mean(leaf, band)};
-    }
+    WeighedMean weighed_direct(PatchId leaf, std::size_t band);
     WeighedMean weighed_direct(ZoneId leaf, std::size_t band);
     // The same of any function on leaves, of which `band` is to be weighed.
     WeighedMean weighed(PatchId leaf, std::size_t band, const Affine& function) const;

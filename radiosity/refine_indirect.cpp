@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "radiosity/open_places.h"
 #include "radiosity/quadratic.h"
 #include "radiosity/refine.h"
 
@@ -140,7 +141,9 @@ RefineResult IndirectRefiner::refine(std::vector<Node> frontier, IndirectSources
         next.clear();
         for (const Node node : frontier) {
             const auto [error, edge] = measure(node);
-            const double x = scatter(node) * error, share = importance.of(node) * x * x;
+            const double x = scatter(node) * error;
+            const double share = open_share(enclosure_, forest, node, leaf_share_points) *
+                                 importance.of(node) * x * x;
             if (descend && share > threshold && forest[node].longest_edge > limits.smallest_edge) {
                 if (forest.is_leaf(node)) bisect(node, edge);
                 const Node first = forest[node].first_child;
