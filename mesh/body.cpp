@@ -110,8 +110,7 @@ void add_body(BaseMesh& mesh, std::span<const Point> points,
     }
     mesh.bodies.push_back(body_of(mesh, first, FacetId(mesh.facets.size())));
     if (!mesh.bodies.back().closed) return;
-    for (std::size_t f = first.value; f < mesh.facets.size(); ++f)
-        mesh.facets[f].tets[1] = TetId();
+    for (std::size_t f = first.value; f < mesh.facets.size(); ++f) mesh.facets[f].tets[1] = TetId();
 }
 
 bool on_body(const BaseMesh& mesh, FacetId facet) {

@@ -77,8 +77,7 @@ class Loop {
           leaf_light_(*enclosure_, mesh_, direct_, options.radiance) {
         if (options_.refinement < Refinement::view) view_.reset();
         if (kept_.keep) light_.keep_in(&kept_.keep->direct);
-        if (kept_.moved)
-            light_.take_from(kept_.moved->direct, kept_.moved->enclosure->mesh.bodies);
+        if (kept_.moved) light_.take_from(kept_.moved->direct, kept_.moved->enclosure->mesh.bodies);
         begin_pass();
     }
 
@@ -103,9 +102,9 @@ class Loop {
         const double goal = looser * looser * options_.error * options_.error;
         std::optional<KeptRows> rows;
         if (kept_.moved)
-            rows.emplace(KeptRows{{*kept_.moved->enclosure, kept_.moved->coarse_forest,
-                                   kept_.moved->elements},
-                                  kept_.moved->areas});
+            rows.emplace(KeptRows{
+                {*kept_.moved->enclosure, kept_.moved->coarse_forest, kept_.moved->elements},
+                kept_.moved->areas});
         if (kept_.keep) kept_.keep->coarse_forest = mesh_.forest();
         CoarseSolution coarse(*enclosure_, mesh_.forest(), std::move(elements), options_, progress_,
                               rows ? &*rows : nullptr);
@@ -173,25 +172,30 @@ class Loop {
                 double goal, IndirectRefiner& indirect) {
         IndirectSources sources{leaf_light_.sources(coarse, &lit), &lit, gather_detail()};
         std::optional<GatherChange> change;
-        if (kept_.moved)
-            change.emplace(*kept_.moved, *enclosure_, gathered_from(coarse, incident_direct_));
+        if (kept_.moved) change.emplace(*kept_.moved, *enclosure_, change_sources(coarse));
         mesh_.samples().take_from(change ? &*change : nullptr);
         mesh_.samples().keep_in(kept_.keep ? &kept_.keep->gathers : nullptr);
         const Fields in_zones = kept_.keep ? sources.fields : Fields{};
-        const auto zones =
-            indirect.refine_zones(sources, importance, 0.5 * goal, limits(1.0), progress_);
+        RefineLimits all = limits(1.0);
+        all.grow = !kept_.moved;
+        const auto zones = indirect.refine_zones(sources, importance, 0.5 * goal, all, progress_);
         note(zones);
         direct_.update();
         direct_.sample_means();
         leaf_light_.update_zones(coarse, indirect, sources.fields);
-        note(indirect.refine_patches(sources, importance,
-                                     goal - std::min(zones.squared_error, 0.5 * goal), limits(1.0),
-                                     progress_));
+        note(indirect.refine_patches(
+            sources, importance, goal - std::min(zones.squared_error, 0.5 * goal), all, progress_));
         direct_.update();
         direct_.sample_means();
         mesh_.samples().take_from(nullptr);
-        if (kept_.keep)
-            keep(coarse, in_zones, sources);
+        if (kept_.keep) keep(coarse, in_zones, sources);
+    }
+
+    // r and H of the elements that changes are told by (KeptLight::gathered_from).
+    std::vector<double> change_sources(const CoarseSolution& coarse) const {
+        std::vector<double> result = gathered_from(coarse, incident_direct_);
+        result.insert(result.end(), incident_lit_.begin(), incident_lit_.end());
+        return result;
     }
 
     void keep(const CoarseSolution& coarse, const Fields& in_zones,
@@ -200,7 +204,7 @@ class Loop {
         light_.keep_in(nullptr);
         kept.elements = coarse.elements();
         kept.areas = coarse.all_areas();
-        kept.gathered_from = gathered_from(coarse, incident_direct_);
+        kept.gathered_from = change_sources(coarse);
         kept.scale = scale_;
         kept.finish(enclosure_, mesh_.forest(), in_zones, on_patches.fields, on_patches.detail);
     }
@@ -269,6 +273,7 @@ class Loop {
     DirectRefiner direct_;
     LeafLight leaf_light_;
     std::vector<double> incident_direct_;  // of the coarse elements
+    std::vector<double> incident_lit_;     // the same, from lit patches
     Spectrum escaped_direct_;              // [W]
     double direct_power_check_ = 0.0;
     Importance::Scale scale_;
@@ -346,10 +351,12 @@ void Loop::solve(CoarseSolution& coarse, const LitPatches* lit) {
     direct_power_check_ =
         conserve_direct_power(*enclosure_, e, light_, escaped_direct_, incident_direct_);
     const std::size_t rays = coarse.rays();
-    if (lit)
-        coarse.solve(incident_direct_, incident_lit(*enclosure_, forest, e, *lit));
-    else
+    if (lit) {
+        incident_lit_ = incident_lit(*enclosure_, forest, e, *lit);
+        coarse.solve(incident_direct_, incident_lit_);
+    } else {
         coarse.solve(incident_direct_);
+    }
     rays_ += coarse.rays() - rays;  // of shots on the fly
 }
 

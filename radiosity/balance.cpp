@@ -79,8 +79,7 @@ class Escape {
             const auto w = uniform_in_triangle(u[0], u[1]);
             const Point x =
                 w[0] * forest.point(c[0]) + w[1] * forest.point(c[1]) + w[2] * forest.point(c[2]);
-            add({x, cosine_direction(n, u[3], u[4])},
-                mesh::start_before(enclosure_.mesh, side, x),
+            add({x, cosine_direction(n, u[3], u[4])}, mesh::start_before(enclosure_.mesh, side, x),
                 [&](std::size_t b) {
                     return pi * area * coarse_.split_emission(i, b) /
                            static_cast<double>(std::min(count, points_.size()));

@@ -65,8 +65,8 @@ CoarseSolution::CoarseSolution(const Enclosure& enclosure, const Forest& forest,
         const Discretization now{enclosure, forest, elements_};
         if (kept) {
             std::atomic<std::size_t> walked = 0;
-            areas_.push_back(moved_rows(
-                now, {kept->discretization, kept->areas[areas_.size()]}, chosen, walked));
+            areas_.push_back(moved_rows(now, {kept->discretization, kept->areas[areas_.size()]},
+                                        chosen, walked));
             rays_ += walked;
             continue;
         }

@@ -114,9 +114,9 @@ Spectrum scaled(const Spectrum& spectrum, double factor) {
 // Where a light is, as far as a body can come between: a sphere, or a cone of directions.
 struct LightCone {
     bool infinite = false;
-    Point centre{0};         // [m]
-    double radius = 0.0;     // [m]
-    Direction towards{0};    // unit, of an infinite one
+    Point centre{0};          // [m]
+    double radius = 0.0;      // [m]
+    Direction towards{0};     // unit, of an infinite one
     double half_angle = 0.0;  // of its cone [rad]
 
     // Whether a body's sphere meets the cone from x over the light.
@@ -253,9 +253,10 @@ void DirectLight::Data::find_cones() {
             cone.infinite = true;
             cone.towards = glm::normalize(cone.centre);
             for (const Point& corner : area.corners)
-                cone.half_angle = std::max(
-                    cone.half_angle,
-                    std::acos(std::clamp(glm::dot(glm::normalize(corner), cone.towards), -1.0, 1.0)));
+                cone.half_angle =
+                    std::max(cone.half_angle,
+                             std::acos(std::clamp(glm::dot(glm::normalize(corner), cone.towards),
+                                                  -1.0, 1.0)));
         } else {
             for (const Point& corner : area.corners)
                 cone.radius = std::max(cone.radius, glm::distance(corner, cone.centre));

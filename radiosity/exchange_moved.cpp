@@ -32,8 +32,7 @@ class MovedRows {
             rows.values.push_back(sum.x);
             if (!linear) return;
             const Point place(sum.y, sum.z, sum.w);
-            rows.moments.push_back(place -
-                                   sum.x * (row_now_.centre(column) - row_now_.middle()));
+            rows.moments.push_back(place - sum.x * (row_now_.centre(column) - row_now_.middle()));
         });
         rows.ends.push_back(rows.columns.size());
     }
@@ -42,9 +41,8 @@ class MovedRows {
     // The row in m^2, with the places of its deposits; false where it is to be walked anew.
     bool add_corrected(std::size_t i, PlacedShares& sums) const {
         const Elements& e = now_.elements;
-        if (e.is_patch(i) &&
-            mesh::on_body(now_.enclosure.mesh,
-                          FacetId(now_.forest.base_facet_side(e.patches[i]) / 2)))
+        if (e.is_patch(i) && mesh::on_body(now_.enclosure.mesh,
+                                           FacetId(now_.forest.base_facet_side(e.patches[i]) / 2)))
             return false;
         if (row_now_.capacity(i) != row_before_.capacity(i)) return false;
         thread_local std::vector<std::size_t> met;
@@ -53,8 +51,7 @@ class MovedRows {
         for (std::size_t k = 0; k < options_.rays; ++k) {
             const RayStart at = row_now_.start(i, k);
             count += at.weight;
-            if (!meets(now_.enclosure, at.ray) &&
-                !meets(before_.discretization.enclosure, at.ray))
+            if (!meets(now_.enclosure, at.ray) && !meets(before_.discretization.enclosure, at.ray))
                 continue;
             if (!row_now_.open(i, at) || !row_before_.open(i, at)) return false;
             met.push_back(k);

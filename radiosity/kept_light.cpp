@@ -8,6 +8,21 @@ namespace {
 // Of a gather's rays: where more meet a body, all are walked anew.
 constexpr double most_met = 0.4;
 
+// Functions linear in the elements, given their means in a band ([element * bands + band]).
+void set_linear(const KeptLight& kept, const ExchangeAreas& areas, const std::vector<double>& mean,
+                std::size_t band, Affine* functions) {
+    const Elements& e = kept.elements;
+    std::vector<glm::vec3> gradients(e.size(), glm::vec3(0.0f));
+    if (areas.gradients) gradients = areas.gradients->of(mean);
+    for (std::size_t i = 0; i < e.size(); ++i) {
+        const Direction g(gradients[i]);
+        const Point centre = e.is_patch(i)
+                                 ? centre_of(*kept.enclosure, kept.coarse_forest, e.patches[i])
+                                 : centre_of(*kept.enclosure, kept.coarse_forest, e.zone(i));
+        functions[i * e.bands + band] = {g, mean[i] - glm::dot(g, centre)};
+    }
+}
+
 }  // namespace
 
 std::size_t KeptLight::memory() const {
@@ -78,29 +93,23 @@ GatherChange::GatherChange(const KeptLight& before, const Enclosure& enclosure,
     bodies_.insert(bodies_.end(), enclosure.mesh.bodies.begin(), enclosure.mesh.bodies.end());
     const Elements& e = before.elements;
     const std::size_t n = e.size();
-    change_.resize(n * bands_);
-    std::vector<std::size_t> distinct;  // of the bands, as CoarseSolution has them
+    change_.resize(2 * n * bands_);
     std::size_t made = 0;
+    std::vector<std::size_t> distinct;  // of the bands, as CoarseSolution has them
     for (std::size_t b = 0; b < bands_; ++b) {
         const std::size_t same = first_of_extinction(enclosure, b);
         distinct.push_back(same < b ? distinct[same] : made++);
         const ExchangeAreas& areas = before.areas[distinct[b]];
-        std::vector<double> r(n), mean(n, 0.0);
-        for (std::size_t i = 0; i < n; ++i)
-            r[i] = gathered_from[i * bands_ + b] - before.gathered_from[i * bands_ + b];
-        const std::vector<double> received = multiply(areas, e, r);
-        for (std::size_t i = 0; i < n; ++i)
-            if (const double c = e.capacity[i * bands_ + b]; c > 0.0) mean[i] = received[i] / c;
-        std::vector<glm::vec3> gradients(n, glm::vec3(0.0f));
-        if (areas.gradients) gradients = areas.gradients->of(mean);
+        std::vector<double> r(n), lit(n);
         for (std::size_t i = 0; i < n; ++i) {
-            const Direction g(gradients[i]);
-            const Point centre =
-                e.is_patch(i)
-                    ? centre_of(*before.enclosure, before.coarse_forest, e.patches[i])
-                    : centre_of(*before.enclosure, before.coarse_forest, e.zone(i));
-            change_[i * bands_ + b] = {g, mean[i] - glm::dot(g, centre)};
+            const std::size_t k = i * bands_ + b;
+            r[i] = gathered_from[k] - before.gathered_from[k];
+            lit[i] = gathered_from[n * bands_ + k] - before.gathered_from[n * bands_ + k];
         }
+        std::vector<double> mean = multiply(areas, e, r);
+        for (std::size_t i = 0; i < n; ++i) mean[i] /= std::max(e.capacity[i * bands_ + b], 1e-300);
+        set_linear(before, areas, mean, b, &change_[0]);
+        set_linear(before, areas, lit, b, &change_[n * bands_]);
     }
 }
 
@@ -115,6 +124,13 @@ bool GatherChange::inside(Point x) const {
     });
 }
 
+// What lit patches send past a body is known as finely as the elements are: not beside it.
+bool near_body(const std::vector<mesh::Body>& bodies, Point x, double size) {
+    return std::ranges::any_of(bodies, [&](const mesh::Body& body) {
+        return glm::distance(x, body.centre) <= body.radius + size;
+    });
+}
+
 std::uint32_t GatherChange::element_at(const GatherPoint& point) const {
     const mesh::BaseMesh& mesh = before_.enclosure->mesh;
     const Forest& forest = before_.coarse_forest;
@@ -124,21 +140,24 @@ std::uint32_t GatherChange::element_at(const GatherPoint& point) const {
     if (point.start.face == mesh::WalkStart::inside) return none;  // a body's
     const FacetId facet = mesh.tet_facets[tet.value][point.start.face];
     const Side side = mesh.facets[facet.value].tets[0] == tet ? Side::front : Side::back;
-    return before_.elements
-        .of_patch[forest.leaf_at(mesh::root_patch(facet, side), point.x).value];
+    return before_.elements.of_patch[forest.leaf_at(mesh::root_patch(facet, side), point.x).value];
 }
 
 bool GatherChange::gather(const GatherScene& now, const GatherPoint& point, const PointSet& points,
                           std::uint64_t seed, std::span<Gathered> incident,
                           std::size_t& walked) const {
+    const auto size_of = [&](std::uint32_t e) -> double {
+        const Elements& elements = before_.elements;
+        return elements.is_patch(e) ? before_.coarse_forest[elements.patches[e]].longest_edge
+                                    : before_.coarse_forest[elements.zone(e)].longest_edge;
+    };
     const double* kept = before_.gathers.find(point.x, point.normal);
     if (!kept || inside(point.x)) return false;
     const std::uint32_t element = element_at(point);
-    if (element == none) return false;
+    if (element == none || near_body(bodies_, point.x, size_of(element))) return false;
     const GatherScene& before = point.on_surface() ? *before_.on_patches : *before_.in_zones;
     const std::uint64_t stream =
-        point.on_surface() ? seed
-                           : hash_seed(seed, static_cast<std::uint64_t>(kept[2 * bands_]));
+        point.on_surface() ? seed : hash_seed(seed, static_cast<std::uint64_t>(kept[2 * bands_]));
     thread_local std::vector<mesh::Ray> met;
     thread_local std::vector<bool> first_half;
     met.clear();
@@ -153,8 +172,8 @@ bool GatherChange::gather(const GatherScene& now, const GatherPoint& point, cons
     if (static_cast<double>(met.size()) > most_met * count) return false;
     const double others = 1.0 - static_cast<double>(met.size()) / count;
     for (std::size_t b = 0; b < bands_; ++b) {
-        incident[b].mean =
-            kept[2 * b] + others * change_[element * bands_ + b].at(point.x);  // (49)
+        incident[b].mean = kept[2 * b] + others * change_[element * bands_ + b].at(point.x) +
+                           change_[change_.size() / 2 + element * bands_ + b].at(point.x);  // (49)
         incident[b].half_difference = kept[2 * b + 1];
     }
     thread_local std::vector<double> found, lost;

@@ -48,15 +48,17 @@ std::vector<double> gathered_from(const CoarseSolution& coarse,
 
 // Gathers in a scene after its bodies have moved, from those before.
 //
-// Equation: with D rays, of which `m` meet a body's sphere before or now, L⁰ what a ray found before
+// Equation: with D rays, of which `m` meet a body's sphere before or now, L⁰ what a ray found
+// before
 //   and L what it finds now,
-//     H = H⁰ + (1 − m/D) ΔH + (1/D) Σ_m (L − L⁰),   ΔH_i = Σ_j S_ij⁰ (r_j − r_j⁰) / c_i           (49)
+//     H = H⁰ + (1 − m/D) ΔH + (1/D) Σ_m (L − L⁰),   ΔH_i = Σ_j S_ij⁰ (r_j − r_j⁰) / c_i (49)
 //   The first sum is exact. ΔH, what other rays find more or less since all light has changed a
 //   little, is smooth: the coarse solution's, linear in its elements.
 class GatherChange {
   public:
     // `gathered_from`: as that of KeptLight, now. All arguments must outlive this.
-    GatherChange(const KeptLight& before, const Enclosure& enclosure, std::vector<double> gathered_from);
+    GatherChange(const KeptLight& before, const Enclosure& enclosure,
+                 std::vector<double> gathered_from);
 
     // H from rays at a point, one value a band; false where nothing was kept or a body is so near
     // that most rays meet it. Thread-safe; `walked` rays are counted, two for each that meets.

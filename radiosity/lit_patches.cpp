@@ -51,9 +51,8 @@ LitPatches::LitPatches(const Enclosure& enclosure, const Forest& forest, const F
         const auto start = mesh::start_before(enclosure.mesh, static_cast<std::uint32_t>(root),
                                               forest.centroid(patch));
         const bool body = mesh::on_body(enclosure.mesh, FacetId(root / 2));
-        fronts_.push_back({start,
-                           {enclosure.mesh, start.tet},
-                           body ? static_cast<std::uint32_t>(root) : none});
+        fronts_.push_back(
+            {start, {enclosure.mesh, start.tet}, body ? static_cast<std::uint32_t>(root) : none});
         for (std::size_t b = 0; b < bands_; ++b)
             power += nodes_[node].area * radiance_[node * bands_ + b].at(nodes_[node].centroid) /
                      double(bands_);

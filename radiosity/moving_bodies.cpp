@@ -69,7 +69,7 @@ struct Shape {
         };
         for (const auto& t : triangles)
             for (const auto corner : {t[1], t[2]}) {
-                const auto [low, high] = std::minmax(find(t[0]), find(corner));
+                const auto [low, high] = std::minmax({find(t[0]), find(corner)});
                 root[high] = low;
             }
         for (std::size_t k = 0; k < root.size(); ++k) root[k] = find(static_cast<std::uint32_t>(k));
@@ -119,8 +119,7 @@ bool holds_a_place(const Scene& scene, const mesh::BaseMesh& mesh) {
     };
     return std::ranges::any_of(scene.viewpoints, inside) ||
            std::ranges::any_of(scene.lights, light_inside) ||
-           std::ranges::any_of(scene.media,
-                               [&](const Medium& m) { return m.at && inside(*m.at); });
+           std::ranges::any_of(scene.media, [&](const Medium& m) { return m.at && inside(*m.at); });
 }
 
 }  // namespace

@@ -120,8 +120,7 @@ void DirectRefiner::update() {
     tbb::parallel_for(std::size_t(0), zones.size(), [&](std::size_t k) {
         const ZoneId z = zones[k];
         const OpenPlace place = open_place(enclosure_, forest.centroid(z), forest.base_tet(z));
-        light_.at_zone(place.x, place.tet,
-                       {zone_centroid_.data() + z.value * bands_, bands_});
+        light_.at_zone(place.x, place.tet, {zone_centroid_.data() + z.value * bands_, bands_});
     });
     tbb::parallel_for(std::size_t(0), patches.size(), [&](std::size_t k) {
         const PatchId p = patches[k];

@@ -38,8 +38,8 @@ void SampledMeans::evaluate(ZoneId zone, double* mean) const {
 
 void SampledMeans::evaluate(PatchId patch, double* mean) const {
     const auto& corners = forest_[patch].corners;
-    const TetId tet = mesh::tet_before(enclosure_.mesh, forest_.base_facet_side(patch),
-                                       forest_.centroid(patch));
+    const TetId tet =
+        mesh::tet_before(enclosure_.mesh, forest_.base_facet_side(patch), forest_.centroid(patch));
     const Direction normal = normal_of(forest_, patch);
     std::vector<double> incident(enclosure_.bands);
     for (std::size_t k = 0; k < points().size(); ++k) {

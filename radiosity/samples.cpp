@@ -139,10 +139,8 @@ std::size_t SampleSet::gather_one(std::size_t sample, const GatherScene& scene,
     const bool on_surface = point.on_surface();
     const std::uint64_t stream = on_surface ? plane_seed(seed, point.normal) : seed;
     std::size_t walked = 0;
-    if (!change_ || !change_->gather(scene, point, points, stream, out, walked)) {
-        gather(scene, nullptr, point, points, on_surface ? stream : hash_seed(seed, sample), out);
-        walked = points.size();
-    }
+    if (change_ && change_->gather(scene, point, points, stream, out, walked)) return walked;
+    gather(scene, lit, point, points, on_surface ? stream : hash_seed(seed, sample), out);
     if (keep_) {
         std::vector<double> values;
         for (const Gathered& one : out)
@@ -150,11 +148,7 @@ std::size_t SampleSet::gather_one(std::size_t sample, const GatherScene& scene,
         values.push_back(static_cast<double>(sample));
         keep_->keep(point.x, point.normal, values);
     }
-    if (!lit) return walked;
-    std::vector<double> arrived(bands_, 0.0);
-    lit->gather({point.x, point.start.tet, point.normal, on_surface}, arrived);
-    for (std::size_t b = 0; b < bands_; ++b) out[b].mean += arrived[b];
-    return walked;
+    return points.size();
 }
 
 }  // namespace tyndall::radiosity

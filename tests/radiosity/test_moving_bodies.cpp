@@ -159,7 +159,8 @@ TEST_CASE("What a body covers is not open", "[moving]") {
     const Forest forest(enclosure->mesh);
     for (std::size_t z = 0; z < forest.zone_count(); ++z)
         volume += open_share(*enclosure, forest, ZoneId(z), 4096) * forest.volume(ZoneId(z));
-    CHECK(volume == Catch::Approx(12.0 - std::pow(box_size, 3)).epsilon(2e-3));  // of few points
+    CHECK(volume ==
+          Approx(12.0 - std::pow(box_size, 3)).epsilon(2e-3));  // of few points
 }
 
 TEST_CASE("A solve after a body has moved is the full solve's", "[moving]") {
