@@ -27,17 +27,29 @@ bool turns_outward(std::span<const Point> points,
                                        [](const auto& edge) { return edge.second == 17; });
 }
 
+// A projection without the distance along the ray.
+walk_detail::Projected across(const BaseMesh& mesh, const walk_detail::Frame& frame, VertexId id) {
+    const auto p = mesh.points[id.value] - frame.origin;
+    return {glm::dot(p, frame.u), glm::dot(p, frame.v), 0.0, id.value};
+}
+
 // Of one body; hits nearer than `hit` only.
 void meet(const BaseMesh& mesh, const Body& body, const Ray& ray, BodyHit& hit) {
     using namespace walk_detail;
     const Frame project(ray);
     for (std::uint32_t f = body.first.value; f < body.end.value; ++f) {
+        // Most are missed: no more is computed than tells so.
         const auto& corners = mesh.facets[f].corners;
-        const Projected a = project(mesh, corners[0]), b = project(mesh, corners[1]),
-                        c = project(mesh, corners[2]);
-        const double ab = cross(a, b), bc = cross(b, c), ca = cross(c, a);
+        Projected a = across(mesh, project, corners[0]), b = across(mesh, project, corners[1]);
+        const double ab = cross(a, b);
         const bool along = positive(ab, a, b);
-        if (positive(bc, b, c) != along || positive(ca, c, a) != along) continue;
+        Projected c = across(mesh, project, corners[2]);
+        const double bc = cross(b, c);
+        if (positive(bc, b, c) != along) continue;
+        const double ca = cross(c, a);
+        if (positive(ca, c, a) != along) continue;
+        for (Projected* p : {&a, &b, &c})
+            p->w = glm::dot(mesh.points[p->id] - project.origin, project.w);
         const double sum = ab + bc + ca;
         if (sum == 0.0) continue;  // seen edge-on: its neighbours are met
         const double distance = (bc * a.w + ca * b.w + ab * c.w) / sum;

@@ -154,7 +154,7 @@ bool GatherChange::gather(const GatherScene& now, const GatherPoint& point, cons
     const double* kept = before_.gathers.find(point.x, point.normal);
     if (!kept || inside(point.x)) return false;
     const std::uint32_t element = element_at(point);
-    if (element == none || near_body(bodies_, point.x, size_of(element))) return false;
+    if (element == none || near_body(bodies_, point.x, 0.5 * size_of(element))) return false;
     const GatherScene& before = point.on_surface() ? *before_.on_patches : *before_.in_zones;
     const std::uint64_t stream =
         point.on_surface() ? seed : hash_seed(seed, static_cast<std::uint64_t>(kept[2 * bands_]));

@@ -13,9 +13,11 @@ constexpr double before_surface = 1e-7;
 template <class Node>
 bool near_body(const Enclosure& enclosure, const Forest& forest, Node node) {
     const Point centroid = forest.centroid(node);
+    double reach = 0.0;
+    for (const VertexId corner : forest[node].corners)
+        reach = std::max(reach, glm::distance(forest.point(corner), centroid));
     return std::ranges::any_of(enclosure.mesh.bodies, [&](const mesh::Body& body) {
-        return body.closed && glm::distance(body.centre, centroid) <=
-                                  body.radius + double(forest[node].longest_edge);
+        return body.closed && glm::distance(body.centre, centroid) <= body.radius + reach;
     });
 }
 
