@@ -24,11 +24,12 @@ struct KeptLight {
     Forest coarse_forest;  // whose leaves are the coarse solution's elements
     Elements elements;
     std::vector<ExchangeAreas> areas;  // of each distinct extinction
-    // r of the elements, of patches less what they reflect of direct light [W/m^2/sr].
+    // r of the elements, of patches less what they reflect of direct light; after these H from what
+    // patches reflect of it ([element * bands + band], twice) [W/m^2/sr].
     std::vector<double> gathered_from;
     Importance::Scale scale;
     PlaceMemory direct;   // H^A at every place it was asked for
-    PlaceMemory gathers;  // of rays alone: mean and half difference a band, the seed's number
+    PlaceMemory gathers;  // mean and half difference a band, the seed's number
     Forest forest;        // in the end
     // What was gathered from in zones, and on patches.
     std::unique_ptr<const GatherScene> in_zones, on_patches;
@@ -51,17 +52,18 @@ std::vector<double> gathered_from(const CoarseSolution& coarse,
 // Equation: with D rays, of which `m` meet a body's sphere before or now, L⁰ what a ray found
 // before
 //   and L what it finds now,
-//     H = H⁰ + (1 − m/D) ΔH + (1/D) Σ_m (L − L⁰),   ΔH_i = Σ_j S_ij⁰ (r_j − r_j⁰) / c_i (49)
-//   The first sum is exact. ΔH, what other rays find more or less since all light has changed a
-//   little, is smooth: the coarse solution's, linear in its elements.
+//     H = H⁰ + (1 − m/D) ΔH + P − P⁰ + (1/D) Σ_m (L − L⁰),   ΔH_i = Σ_j S_ij⁰ (r_j − r_j⁰) / c_i  (49)
+//   The sum over rays is exact. ΔH, what other rays find more or less since all light has changed a
+//   little, and P, what lit patches bring, are the coarse solution's, linear in its elements.
 class GatherChange {
   public:
     // `gathered_from`: as that of KeptLight, now. All arguments must outlive this.
     GatherChange(const KeptLight& before, const Enclosure& enclosure,
                  std::vector<double> gathered_from);
 
-    // H from rays at a point, one value a band; false where nothing was kept or a body is so near
-    // that most rays meet it. Thread-safe; `walked` rays are counted, two for each that meets.
+    // H at a point, one value a band; false where it is to be gathered anew: nothing was kept, or a
+    // body is within half an element's size, or met by more than two fifths of the rays.
+    // Thread-safe; `walked` rays are counted, two for each that meets.
     bool gather(const GatherScene& now, const GatherPoint& point, const PointSet& points,
                 std::uint64_t seed, std::span<Gathered> incident, std::size_t& walked) const;
 

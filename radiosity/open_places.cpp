@@ -21,6 +21,16 @@ bool near_body(const Enclosure& enclosure, const Forest& forest, Node node) {
     });
 }
 
+// 0 where a body covers all corners, else 1.
+template <class Node>
+double by_corners(const Enclosure& enclosure, const Forest& forest, Node node, Direction normal) {
+    const auto& corners = forest[node].corners;
+    return std::ranges::all_of(
+               corners, [&](VertexId c) { return covered(enclosure, forest.point(c), normal); })
+               ? 0.0
+               : 1.0;
+}
+
 template <class Place>
 double share(std::size_t count, std::uint64_t seed, const Place& open) {
     const PointSet points(count);
@@ -56,6 +66,7 @@ double open_share(const Enclosure& enclosure, const Forest& forest, ZoneId zone,
                   std::size_t points) {
     if (enclosure.mesh.bodies.empty() || !near_body(enclosure, forest, zone)) return 1.0;
     const auto& c = forest[zone].corners;
+    if (points == 0) return by_corners(enclosure, forest, zone, Direction(0.0));
     return share(points, zone.value, [&](const auto& u) {
         const auto w = uniform_in_tet(u[0], u[1], u[2]);
         Point x(0.0);
@@ -69,6 +80,7 @@ double open_share(const Enclosure& enclosure, const Forest& forest, PatchId patc
     if (enclosure.mesh.bodies.empty() || !near_body(enclosure, forest, patch)) return 1.0;
     const auto& c = forest[patch].corners;
     const Direction normal = normal_of(forest, patch);
+    if (points == 0) return by_corners(enclosure, forest, patch, normal);
     return share(points, patch.value, [&](const auto& u) {
         const auto w = uniform_in_triangle(u[0], u[1]);
         const Point x =

@@ -21,7 +21,7 @@ OpenPlace open_place(const Enclosure& enclosure, Point x, TetId tet);
 bool covered(const Enclosure& enclosure, Point x, Direction normal = Direction(0.0));
 
 // The share of an element that no body covers, by as many points as asked for; 1 without any where
-// no body is near [-].
+// no body is near. By 0 points: 0 where one covers all corners, else 1 [-].
 double open_share(const Enclosure& enclosure, const Forest& forest, ZoneId zone,
                   std::size_t points);
 double open_share(const Enclosure& enclosure, const Forest& forest, PatchId patch,

@@ -161,7 +161,7 @@ double DirectRefiner::collect(const Importance& importance, const RefineLimits& 
     for (const ZoneId z : mesh_.zones())
         if (forest.is_leaf(z)) {
             const auto& optics = enclosure_.media[medium_of(enclosure_, forest, z)];
-            const double open = open_share(enclosure_, forest, z, leaf_share_points);
+            const double open = open_share(enclosure_, forest, z, 0);
             add(z, zone_error_[z.value], cuts_ ? cuts_->error(z) : 0.0,
                 mean_over_bands(optics.albedo), open * importance.of(z));
         }

@@ -142,8 +142,8 @@ RefineResult IndirectRefiner::refine(std::vector<Node> frontier, IndirectSources
         for (const Node node : frontier) {
             const auto [error, edge] = measure(node);
             const double x = scatter(node) * error;
-            const double share = open_share(enclosure_, forest, node, leaf_share_points) *
-                                 importance.of(node) * x * x;
+            const double share =
+                open_share(enclosure_, forest, node, 0) * importance.of(node) * x * x;
             if (descend && share > threshold && forest[node].longest_edge > limits.smallest_edge &&
                 (limits.grow || !forest.is_leaf(node))) {
                 if (forest.is_leaf(node)) bisect(node, edge);

@@ -112,7 +112,8 @@ TEST_CASE("A body in the tetrahedra is the box that they conform to", "[moving]"
     const Scene scene = room_with_box(there);
     SolveOptions options = cheap();
     options.refinement = Refinement::none;
-    options.rays = 256;
+    options.rays = 1024;
+    options.direct_light = DirectLightMode::rows;
     const Solution body = solve_adaptively(with_box(there), options);
     const Solution cut =
         solve_adaptively(std::make_shared<const Enclosure>(make_enclosure(scene)), options);
@@ -163,8 +164,9 @@ TEST_CASE("What a body covers is not open", "[moving]") {
 
 TEST_CASE("A solve after a body has moved is the full solve's", "[moving]") {
     SolveOptions options = cheap();
-    options.error = 0.3;
-    options.max_elements = 3000;
+    options.error = 0.5;
+    options.element_size = 1.0;
+    options.max_elements = 1200;
     Passes passes;
     passes.keep = std::make_shared<KeptLight>(1);
     const Solution plain = solve_adaptively(with_box(there), options);
