@@ -52,7 +52,8 @@ std::vector<double> gathered_from(const CoarseSolution& coarse,
 // Equation: with D rays, of which `m` meet a body's sphere before or now, L⁰ what a ray found
 // before
 //   and L what it finds now,
-//     H = H⁰ + (1 − m/D) ΔH + P − P⁰ + (1/D) Σ_m (L − L⁰),   ΔH_i = Σ_j S_ij⁰ (r_j − r_j⁰) / c_i  (49)
+//     H = H⁰ + (1 − m/D) ΔH + P − P⁰ + (1/D) Σ_m (L − L⁰),   ΔH_i = Σ_j S_ij⁰ (r_j − r_j⁰) / c_i
+//     (49)
 //   The sum over rays is exact. ΔH, what other rays find more or less since all light has changed a
 //   little, and P, what lit patches bring, are the coarse solution's, linear in its elements.
 class GatherChange {

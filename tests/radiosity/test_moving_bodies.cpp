@@ -112,8 +112,7 @@ TEST_CASE("A body in the tetrahedra is the box that they conform to", "[moving]"
     const Scene scene = room_with_box(there);
     SolveOptions options = cheap();
     options.refinement = Refinement::none;
-    options.rays = 1024;
-    options.direct_light = DirectLightMode::rows;
+    options.rays = 256;
     const Solution body = solve_adaptively(with_box(there), options);
     const Solution cut =
         solve_adaptively(std::make_shared<const Enclosure>(make_enclosure(scene)), options);
@@ -193,6 +192,8 @@ TEST_CASE("A solve after a body has moved is the full solve's", "[moving]") {
 TEST_CASE("A solution file keeps bodies", "[moving]") {
     SolveOptions options = cheap();
     options.refinement = Refinement::none;
+    options.direct_light = DirectLightMode::rows;
+    options.element_size = 1.0;
     const Solution solution = solve_adaptively(with_box(there), options);
     const auto path = std::filesystem::temp_directory_path() / "tyndall_body.vtkhdf";
     write_solution(path, solution, "{}");
