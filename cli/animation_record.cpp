@@ -52,7 +52,8 @@ Json json_of(const UnitsRecord& units) {
 
 UnitsRecord units_of(const Json& json) {
     return {json.at("frames").at(0), json.at("frames").at(1).get<std::size_t>() + 1,
-            json.at("groups"), json.at("moving"), json.at("solves"), json.at("cpu_seconds")};
+            json.at("groups"),       json.at("moving"),
+            json.at("solves"),       json.at("cpu_seconds")};
 }
 
 void remove_files(const fs::path& folder, std::initializer_list<const char*> extensions) {

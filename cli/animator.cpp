@@ -100,8 +100,7 @@ void Animator::begin_moving(std::size_t index) {
     moving_.rays = rays_of(moving_.first);
     moving_.kept = std::move(kept);
     UnitsRecord units{segment.first, segment.end, {}, {}, 1, cpu_seconds() - began};
-    for (const std::size_t s : segment.moving)
-        units.moving.push_back(file.scene.surfaces[s].name);
+    for (const std::size_t s : segment.moving) units.moving.push_back(file.scene.surfaces[s].name);
     record_.add(std::move(units));
 }
 
@@ -120,8 +119,7 @@ void Animator::move(std::size_t frame, FrameRecord& record) {
         std::make_shared<const radiosity::Enclosure>(
             radiosity::with_bodies(*moving_.still, file.scene, segment.moving)),
         file.solve, view(frame), progress_.callback(), passes);
-    record.rays_share =
-        static_cast<double>(rays_of(solution_)) / static_cast<double>(moving_.rays);
+    record.rays_share = static_cast<double>(rays_of(solution_)) / static_cast<double>(moving_.rays);
 }
 
 const radiosity::Solution& Animator::light(std::size_t frame, FrameRecord& record) {
@@ -143,10 +141,10 @@ const radiosity::Solution& Animator::light(std::size_t frame, FrameRecord& recor
         else
             solve(frame);
     }
-    record.done = same                                ? "kept"
+    record.done = same                               ? "kept"
                   : plan_.segments[index].superposed ? "superposed"
-                  : moves                             ? "moved"
-                                                      : "solved";
+                  : moves                            ? "moved"
+                                                     : "solved";
     record.cpu_seconds = cpu_seconds() - began;
     if (!progress_.stopped()) solved_ = frame;
     return solution_;
@@ -194,9 +192,8 @@ bool Animator::make(std::size_t frame) {
         if (plan_.segments[segment_[frame]].camera_moves) record.warnings.push_back(no_view);
         if (record.done == "solved" && !moving_.obstacle.empty() &&
             moving_.segment == segment_[frame])
-            record.warnings.push_back(
-                fmt::format("what moves is solved anew in every frame, since it {}.",
-                            moving_.obstacle));
+            record.warnings.push_back(fmt::format(
+                "what moves is solved anew in every frame, since it {}.", moving_.obstacle));
         record_.add(frame, std::move(record));
         return true;
     } catch (const mesh::InputError& error) {

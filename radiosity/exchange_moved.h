@@ -16,7 +16,7 @@ struct RowsBefore {
 
 // Purpose: the rows that exchange_walked makes of `now`. Every ray has its own number in its row's
 //   point set, so that it is the same ray before and now unless its element has moved:
-//     S_ij = S_ij⁰ + c_i/D Σ_{rays that meet a body's sphere before or now} (w_j − w_j⁰)         (48)
+//     S_ij = S_ij⁰ + c_i/D Σ_{rays that meet a body's sphere before or now} (w_j − w_j⁰) (48)
 //   with w of (21): "negative energy" takes away what such a ray left behind the body, and all of
 //   its new way is added. Rows of bodies, and of elements that one covers in part, are walked anew.
 // Valid for: enclosures that differ in the places of their bodies alone; elements the same, of the

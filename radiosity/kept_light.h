@@ -49,11 +49,10 @@ std::vector<double> gathered_from(const CoarseSolution& coarse,
 
 // Gathers in a scene after its bodies have moved, from those before.
 //
-// Equation: with D rays, of which `m` meet a body's sphere before or now, L⁰ what a ray found
-// before
-//   and L what it finds now,
-//     H = H⁰ + (1 − m/D) ΔH + P − P⁰ + (1/D) Σ_m (L − L⁰),   ΔH_i = Σ_j S_ij⁰ (r_j − r_j⁰) / c_i
-//     (49)
+// Equation: with D rays, of which `m` meet a body's sphere before or now,
+//     H = H⁰ + (1 − m/D) ΔH + P − P⁰ + (1/D) Σ_m (L − L⁰)                              (49)
+//     ΔH_i = Σ_j S_ij⁰ (r_j − r_j⁰) / c_i
+// Symbols: L⁰ what a ray found before, L what it finds now.
 //   The sum over rays is exact. ΔH, what other rays find more or less since all light has changed a
 //   little, and P, what lit patches bring, are the coarse solution's, linear in its elements.
 class GatherChange {

@@ -1,5 +1,5 @@
-// Where elements are beside the bodies (mesh/body.h) that stand in them: what a body covers holds no
-// light, and no light is asked for there.
+// Where elements are beside the bodies (mesh/body.h) that stand in them: what a body covers holds
+// no light, and no light is asked for there.
 #pragma once
 
 #include "mesh/body.h"

@@ -163,8 +163,8 @@ class RowWalker {
         ray.origin =
             w[0] * forest.point(c[0]) + w[1] * forest.point(c[1]) + w[2] * forest.point(c[2]);
         ray.direction = cosine_direction(normal_of(forest, patch), u[3], u[4]);
-        return {ray, mesh::start_before(d_.enclosure.mesh, forest.base_facet_side(patch),
-                                        ray.origin)};
+        return {ray,
+                mesh::start_before(d_.enclosure.mesh, forest.base_facet_side(patch), ray.origin)};
     }
 
     RayStart in_zone(ZoneId zone, const Numbers& u) const {
