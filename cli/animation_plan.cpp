@@ -88,7 +88,8 @@ AnimationPlan plan_animation(const std::vector<SceneFile>& frames) {
     for (std::size_t f = 0; f < frames.size(); ++f) {
         plan.changed.push_back(f == 0 ? std::vector<std::string>()
                                       : changes(frames[f - 1], frames[f]));
-        if (f == 0 || !joins(frames, f, plan.segments.back())) plan.segments.push_back({f, f, false, {}});
+        if (f == 0 || !joins(frames, f, plan.segments.back()))
+            plan.segments.push_back({f, f, false, {}});
         Segment& segment = plan.segments.back();
         segment.end = f + 1;
         segment.camera_moves = segment.camera_moves || !same_view(frames[segment.first], frames[f]);
