@@ -25,7 +25,7 @@ using mesh::TetId;
 using radiosity::none;
 using radiosity::Solution;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // Chooses an index with a chance in proportion to its weight.
 class Choice {

@@ -13,7 +13,7 @@
 namespace tyndall::radiosity {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double relative_step = 1e-7;  // of the scene's diagonal: beyond rounding, below notice
 
 double diagonal(const mesh::BaseMesh& mesh) {

@@ -13,8 +13,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const std::string folder = enclosure_folder;
-
 Json vector_json(const glm::dvec3& v) {
     return Json::array({v.x, v.y, v.z});
 }
@@ -214,26 +212,27 @@ void write_grids(Hdf5Writer& file, const Enclosure& e) {
                          {"low", vector_json(grids[g]->low())},
                          {"high", vector_json(grids[g]->high())},
                          {"beyond_is_edge", grids[g]->beyond() == BeyondGrid::edge}});
-        file.array(fmt::format("{}/extinction_{}", folder, g), grids[g]->values());
+        file.array(fmt::format("{}/extinction_{}", enclosure_path, g), grids[g]->values());
     }
-    file.text(folder + "/extinction", Json{{"media", json}, {"grids", boxes}}.dump());
+    file.text(enclosure_path + "/extinction", Json{{"media", json}, {"grids", boxes}}.dump());
 }
 
 std::shared_ptr<const RegularGrid> read_grid(const Hdf5Reader& file, const Json& box,
                                              std::size_t index) {
-    auto values = file.array<float>(fmt::format("{}/extinction_{}", folder, index));
+    auto values = file.array<float>(fmt::format("{}/extinction_{}", enclosure_path, index));
     try {
         return std::make_shared<const RegularGrid>(
             box.at("counts").get<std::array<std::size_t, 3>>(), vector_of(box.at("low")),
             vector_of(box.at("high")), std::move(values),
             box.at("beyond_is_edge").get<bool>() ? BeyondGrid::edge : BeyondGrid::nothing);
     } catch (const mesh::InputError& error) {
-        file.fail(fmt::format("'{}/extinction_{}' is damaged ({})", folder, index, error.what()));
+        file.fail(
+            fmt::format("'{}/extinction_{}' is damaged ({})", enclosure_path, index, error.what()));
     }
 }
 
 void read_grids(const Hdf5Reader& file, Enclosure& e) {
-    const std::string path = folder + "/extinction";
+    const std::string path = enclosure_path + "/extinction";
     if (!file.has(path)) return;  // it is uniform everywhere
     try {
         const Json json = Json::parse(file.text(path));
@@ -259,13 +258,13 @@ void read_grids(const Hdf5Reader& file, Enclosure& e) {
 }  // namespace
 
 void write_optics(Hdf5Writer& file, const Enclosure& e) {
-    file.text(folder + "/optics",
+    file.text(enclosure_path + "/optics",
               optics_json(e).dump(1, ' ', false, Json::error_handler_t::replace));
     if (e.varies()) write_grids(file, e);
 }
 
 void read_optics(const Hdf5Reader& file, Enclosure& e) {
-    const std::string path = folder + "/optics";
+    const std::string path = enclosure_path + "/optics";
     try {
         bind_optics(Json::parse(file.text(path)), e);
     } catch (const Json::exception& error) {

@@ -15,7 +15,7 @@ using Json = nlohmann::json;
 namespace {
 
 // A small foggy room with a lamp and a sun, solved to little.
-const std::string room = R"(
+const std::string animated_room = R"(
 format = 1
 material = [ { name = "grey", reflectance = 0.5 },
              { name = "lamp", reflectance = 0.0, emission = 10.0 } ]
@@ -45,7 +45,7 @@ std::string done(const test::Workplace& place, const std::string& folder) {
 
 std::string values_of(const std::string& tracks, std::size_t frame) {
     const test::Workplace place("animation_values");
-    place.write("room.toml", room + "[animation]\nframes = 11\nfps = 10\n" + tracks);
+    place.write("room.toml", animated_room + "[animation]\nframes = 11\nfps = 10\n" + tracks);
     const auto file = cli::read_scene_file(place.path / "room.toml");
     std::string text;
     for (const auto& setting : cli::settings_of_frame(*file.animation, frame))
@@ -80,7 +80,7 @@ TEST_CASE("Tracks hold outside their keyframes and run straight, smooth or in st
 TEST_CASE("What changes decides what is done anew", "[animate]") {
     const test::Workplace place("animation_plan");
     const auto plan = [&](const std::string& tracks) {
-        place.write("room.toml", room + "[animation]\nframes = 6\n" + tracks);
+        place.write("room.toml", animated_room + "[animation]\nframes = 6\n" + tracks);
         const auto path = place.path / "room.toml";
         return cli::plan_animation(cli::read_frames(path, {}, cli::read_scene_file(path)));
     };
@@ -110,7 +110,7 @@ TEST_CASE("What changes decides what is done anew", "[animate]") {
 TEST_CASE("Frames that change in emission are sums, and equal full solves within the goal",
           "[animate]") {
     const test::Workplace place("animate");
-    place.write("room.toml", room + "[animation]\nframes = 6\nfps = 2\n" + lamp);
+    place.write("room.toml", animated_room + "[animation]\nframes = 6\nfps = 2\n" + lamp);
     const auto report = Json::parse(place.good("animate room.toml -o film --json"));
     CHECK(done(place, "film") ==
           "superposed superposed superposed superposed superposed superposed");
@@ -138,7 +138,7 @@ TEST_CASE("Frames are kept, made in parts, and made anew for another scene", "[a
     const test::Workplace place("animate_parts");
     const std::string camera =
         track("camera.main.eye", "frames = [0, 3]\nvalues = [[1.9, 0.1, 1.2], [1.5, 0.1, 1]]");
-    place.write("room.toml", room + "[animation]\nframes = 4\n" + camera);
+    place.write("room.toml", animated_room + "[animation]\nframes = 4\n" + camera);
     place.good("animate room.toml -o film --quiet --frames 0:1");
     CHECK(done(place, "film") == "solved kept");
     const auto first = place.read("film/frames/0000.png");
@@ -157,7 +157,7 @@ TEST_CASE("Frames are kept, made in parts, and made anew for another scene", "[a
     const auto wrong = place.run("animate room.toml -o film --frames 2:4");
     CHECK(wrong.code == 1);
     test::check_one_message(wrong);
-    place.write("still.toml", room);
+    place.write("still.toml", animated_room);
     const auto still = place.run("animate still.toml -o film");
     CHECK(still.code == 1);
     CHECK(still.err.find("has no [animation]") != std::string::npos);
@@ -166,7 +166,7 @@ TEST_CASE("Frames are kept, made in parts, and made anew for another scene", "[a
 TEST_CASE("A mesh that fails names its frame; other commands take the section", "[animate]") {
     const test::Workplace place("animate_fails");
     place.write("room.toml",
-                room + "[animation]\nframes = 2\n" +
+                animated_room + "[animation]\nframes = 2\n" +
                     track("medium.haze.at", "frames = [0, 1]\nvalues = [[1, 1, 1], [9, 9, 9]]"));
     const auto failed = place.run("animate room.toml -o film --quiet");
     CHECK(failed.code == 1);
@@ -179,7 +179,7 @@ TEST_CASE("A mesh that fails names its frame; other commands take the section", 
 TEST_CASE("Ctrl-C leaves whole frames only", "[animate]") {
     const test::Workplace place("animate_stops");
     place.write("room.toml",
-                room + "[animation]\nframes = 500\n" +
+                animated_room + "[animation]\nframes = 500\n" +
                     track("light.sun.sun.direction",
                           "frames = [0, 499]\nvalues = [[1, 0.2, -0.5], [1, -0.2, -0.5]]"));
     test::Running job(place.path, {"animate", "room.toml", "-o", "film", "--quiet"});

@@ -11,7 +11,7 @@ namespace {
 
 using namespace tyndall;
 using namespace tyndall::radiosity;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // A box of 1 m whose walls emit 2 W/m^2/sr, filled with a medium in equilibrium with them: radiance
 // is 2 everywhere and in every direction.
