@@ -21,7 +21,7 @@ const KeyTable& root() {
             {"medium", "array of tables", "", "fog, smoke, haze"},
             {"light", "array of tables", "", "sun, point and spot lights"},
             {"environment", "table", "", "what comes in from outside"},
-            {"camera", "array of tables", "", "pinhole cameras"},
+            {"camera", "array of tables", "", "cameras"},
             {"solve", "table", "", "how the light is computed"},
             {"render", "table", "", "how the picture is made"},
             {"animation", "table", "", "keys that change in time, for tyndall animate"},
@@ -263,12 +263,26 @@ const KeyTable& camera() {
             {"eye", "[x, y, z] [m]", "required", ""},
             {"target", "[x, y, z] [m]", "required", "shown in the picture's centre"},
             {"up", "[x, y, z]", "[0, 0, 1]", "not along the view"},
+            {"projection", "\"perspective\", \"orthographic\" or \"panorama\"", "perspective",
+             "panorama: all around, longitude across and latitude upright"},
             {"fov_x", "number above 0 and below 180 [degrees]", "", "whole angle across; or fov_y"},
             {"fov_y", "number above 0 and below 180 [degrees]", "",
              "whole angle upright; or fov_x"},
+            {"extent_x", "number above 0 [m]", "",
+             "whole length across, of orthographic pictures; or extent_y"},
+            {"extent_y", "number above 0 [m]", "", "whole length upright; or extent_x"},
+            {"lens", "table", "a pinhole", "what is out of focus is blurred"},
             {"width", "whole number, 1 to 65536 [pixel]", "640", ""},
-            {"height", "whole number, 1 to 65536 [pixel]", "480", ""},
+            {"height", "whole number, 1 to 65536 [pixel]", "480, of a panorama width/2", ""},
         }};
+    return table;
+}
+
+const KeyTable& lens() {
+    static const KeyTable table{"camera.lens",
+                                {{"diameter", "number above 0 [m]", "required", ""},
+                                 {"focus", "number above 0 [m]", "required",
+                                  "distance of the sharp plane from the eye, along the view"}}};
     return table;
 }
 

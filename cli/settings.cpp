@@ -10,6 +10,7 @@
 #include "radiosity/indicators.h"
 #include "radiosity/smoothing.h"
 #include "radiosity/solvers.h"
+#include "render/tone_map.h"
 
 namespace tyndall::cli {
 namespace {
@@ -145,6 +146,8 @@ constexpr Setting render_settings[] = {
      [](T t, K k, Settings& s) { s.render.seed = t.count(k, 0, 1ull << 53); }},
     {{"exposure", "number [stops]", "0", "added to the automatic exposure of the PNG"},
      [](T t, K k, Settings& s) { s.tone_map.exposure = t.number(k, {-100.0, 100.0}); }},
+    {{"tone", "\"shoulder\", \"filmic\", \"reinhard\" or \"linear\"", "\"shoulder\"", "curve from radiance to the light of the PNG"},
+     [](T t, K k, Settings& s) { s.tone_map.curve = static_cast<render::ToneCurve>(t.choice(k, render::tone_curve_names())); }},
     {{"white", "number [W/m²/sr]", "automatic", "radiance shown as white in the PNG"},
      [](T t, K k, Settings& s) { s.tone_map.white = t.number(k, positive); }},
 };

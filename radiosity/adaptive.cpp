@@ -333,11 +333,9 @@ void Loop::rate(const CoarseSolution& coarse) {
     double sum = 0.0;
     for (int y = 0; y < down; ++y)
         for (int x = 0; x < across; ++x) {
-            const double s = (2.0 * (x + 0.5) / across - 1.0) * view_->tan_half_x;
-            const double t = (1.0 - 2.0 * (y + 0.5) / down) * view_->tan_half_y;
-            mesh::Ray ray{view_->eye,
-                          glm::normalize(view_->forward + s * view_->right + t * view_->up)};
-            const mesh::Entry entry = mesh::entry_of(enclosure_->mesh, ray, eye);
+            mesh::Ray ray =
+                view_->ray(2.0 * (x + 0.5) / across - 1.0, 1.0 - 2.0 * (y + 0.5) / down);
+            const mesh::Entry entry = mesh::entry_near(enclosure_->mesh, ray, view_->eye, eye);
             if (!entry.tet.valid() || enclosure_->solid(entry.tet)) continue;
             ray.origin += entry.distance * ray.direction;
             radiance_along(scene, ray, {entry.tet}, radiance);

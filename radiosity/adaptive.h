@@ -8,6 +8,7 @@
 
 #include "radiosity/progress.h"
 #include "radiosity/solution.h"
+#include "radiosity/view.h"
 
 namespace tyndall::radiosity {
 

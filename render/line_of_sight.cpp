@@ -201,8 +201,8 @@ Image line_of_sight(const radiosity::Solution& solution, const Camera& camera,
             const auto seed = radiosity::hash_seed(options.seed, pixel);
             for (std::size_t k = 0; k < points.size(); ++k) {
                 const auto u = points(k, seed);
-                mesh::Ray ray = camera_ray(double(x) + u[0], double(y) + u[1]);
-                const mesh::Entry entry = mesh::entry_of(enclosure.mesh, ray, eye);
+                mesh::Ray ray = camera_ray(double(x) + u[0], double(y) + u[1], {u[3], u[4]});
+                const mesh::Entry entry = mesh::entry_near(enclosure.mesh, ray, camera.eye, eye);
                 if (!entry.tet.valid() || enclosure.solid(entry.tet)) {
                     for (std::size_t b = 0; b < bands; ++b) {
                         sum[emission * bands + b] +=

@@ -21,7 +21,11 @@ struct RenderOptions {
     bool operator==(const RenderOptions&) const = default;
 };
 
+// From exposed radiance to the screen's light (tone_map.h).
+enum class ToneCurve { shoulder, filmic, reinhard, linear };
+
 struct ToneMapOptions {
+    ToneCurve curve = ToneCurve::shoulder;
     double exposure = 0.0;        // stops added to the automatic exposure
     std::optional<double> white;  // radiance shown as white, instead of automatic [W/m^2/sr]
 

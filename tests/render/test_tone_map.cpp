@@ -164,3 +164,28 @@ TEST_CASE("PNG: what is written is read, and says that it is sRGB") {
     CHECK(pixels == image.values);
     CHECK_THROWS_AS(encode_png(DisplayImage{0, 0, 1, {}}), mesh::InputError);
 }
+
+TEST_CASE("Every tone curve goes up from 0 to 1 without a jump") {
+    for (const ToneCurve curve :
+         {ToneCurve::shoulder, ToneCurve::filmic, ToneCurve::reinhard, ToneCurve::linear}) {
+        INFO(tone_curve_names()[static_cast<std::size_t>(curve)]);
+        CHECK(tone_curve(curve, -1.0) == 0.0);
+        CHECK(tone_curve(curve, 0.0) == 0.0);
+        CHECK(tone_curve(curve, 1.0) == Approx(1.0));
+        CHECK(tone_curve(curve, 50.0) == 1.0);
+        double before = 0.0;
+        for (int k = 1; k <= 1000; ++k) {
+            const double now = tone_curve(curve, 0.001 * k);
+            CHECK(now >= before);
+            CHECK(now - before < 0.01);
+            before = now;
+        }
+    }
+    // Middle grey, 0.18 of the linear part: what each makes of it, by hand from the equations.
+    const double grey = 0.18 / 2.2;
+    CHECK(tone_curve(ToneCurve::linear, grey) == Approx(0.18));
+    CHECK(tone_curve(ToneCurve::shoulder, grey) == Approx(0.18));
+    CHECK(tone_curve(ToneCurve::reinhard, grey) == Approx(0.15821).epsilon(1e-4));
+    CHECK(tone_curve(ToneCurve::filmic, grey) == Approx(0.28432).epsilon(1e-3));
+    CHECK(tone_curve(ToneCurve::linear, 0.5) == 1.0);
+}
