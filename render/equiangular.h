@@ -13,7 +13,7 @@ namespace tyndall::render {
 //   distributed angles: the 1/r² of its light has no noise then.
 // Equation: p(t) = D / ((θ_end − θ_begin) (D² + (t − t₀)²)), t₀ the foot of the point on the ray
 // and
-//   D its distance from it.                                                                 (54)
+//   D its distance from it.                                                                 (53)
 // Source: Kulla & Fajardo (2012).
 class Equiangular {
   public:
@@ -36,7 +36,7 @@ class Equiangular {
     double density(double t) const {
         if (!good() || t < begin_ || t > end_) return 0.0;
         const double from_foot = t - foot_;
-        return distance_ / (angle_ * (distance_ * distance_ + from_foot * from_foot));  // (54)
+        return distance_ / (angle_ * (distance_ * distance_ + from_foot * from_foot));  // (53)
     }
 
   private:

@@ -14,7 +14,7 @@ using mesh::Direction;
 
 constexpr double pi = std::numbers::pi;
 constexpr double least_roughness = 0.03;
-constexpr std::size_t cosines = 64, samples = 1024;
+constexpr std::size_t cosines = 256, samples = 1024;
 
 // Of Smith's masking: G₁ = 1 / (1 + Λ), G₂ = 1 / (1 + Λ_o + Λ_i).
 double lambda(Direction w, double alpha) {

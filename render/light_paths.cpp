@@ -165,7 +165,7 @@ class LightPaths::Walk {
         const double phase = at_end() || !(light.density > 0.0)
                                  ? 0.0
                                  : p_.media_.direction_density(on->medium, cosine) / light.density;
-        const double share = power(way, distance, distance * phase);  // (55)
+        const double share = power(way, distance, distance * phase);  // (54)
         if (!(share > 0.0) || !sees(x, place, light, on->medium, at_vertex())) return;
         p_.media_.transmittance(ray_, t, transmittance_);
         const Part to = scattered_into(light.direct);
@@ -218,7 +218,7 @@ class LightPaths::Walk {
         const double phase = at_end() || !(light.density > 0.0)
                                  ? 0.0
                                  : p_.media_.direction_density(c.medium, cosine) / light.density;
-        const double share = power(c.density, aside, c.density * phase);  // (55)
+        const double share = power(c.density, aside, c.density * phase);  // (54)
         if (!sees(x, place, light, c.medium, at_vertex())) return;
         const Part to = scattered_into(light.direct);
         for (std::size_t b = 0; b < bands_; ++b)
@@ -235,7 +235,7 @@ class LightPaths::Walk {
             infinite ? 0.0
                      : Equiangular(before_.ray, before_.begin, before_.end, at).density(before_.t);
         return power(before_.distance_density * before_.density,
-                     before_.distance_density * light_density, aside * light_density);  // (55)
+                     before_.distance_density * light_density, aside * light_density);  // (54)
     }
 
     // Into the environment.

@@ -38,7 +38,7 @@ struct PathEnding {
 //   ray that is drawn equiangularly about it. What two or three of these ways find is weighed by
 //   the power heuristic of their densities:
 //     surface:  light | lobe;    medium: distance × light | light × equiangular | distance × phase
-//     (55)
+//     (54)
 //   Emission of media is added along every ray in closed form.
 // Not found: what a mirror throws of point lights and of suns without a diameter (no path meets
 //   them); a rough one does.

@@ -135,7 +135,7 @@ class Rounds {
                 sum += sum_of(pixel, b) / double(batches_of(pixel) * how_.batch);
             }
         const double count = double(depth_.size() * bands_);
-        return sum > 0.0 ? std::sqrt(error / count / 16.0) / (sum / count) : 0.0;  // (53)
+        return sum > 0.0 ? std::sqrt(error / count / 16.0) / (sum / count) : 0.0;  // (55)
     }
 
     // So many batches more in every row, but for those that the time does not suffice for.

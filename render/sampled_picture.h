@@ -31,7 +31,7 @@ struct SampledPictureOptions {
 //   of each pixel, from the variance of its batches [W/m²/sr].
 // Goals: `samples` a pixel; or, with error or time given, rounds of more and more samples until
 //   estimated_block4 is below `error` or the time is up, whichever is first.
-// Equation: estimated_block4 = √(⟨e²⟩ / 16) / ⟨L⟩, e the layer "error": pixels are independent (53)
+// Equation: estimated_block4 = √(⟨e²⟩ / 16) / ⟨L⟩, e the layer "error": pixels are independent (55)
 // Errors: mesh::InputError for an eye in a solid.
 // Same bits at any thread count, where `time` is 0. A stop by the callback leaves a picture of what
 // there is.

@@ -17,7 +17,7 @@ namespace tyndall::render {
 // emission
 //   and multiple scattering of the solution's zones in closed form (25), single scattering from two
 //   places with direct light in closed form (18) to (20), drawn by transmittance and equiangularly
-//   (54); what it ends on has direct light in closed form and one ray of the rest gathered.
+//   (53); what it ends on has direct light in closed form and one ray of the rest gathered.
 //   Else: LightPaths, handed over to the solution at the bounce `options.bounces` (0: 1 where media
 //   scatter evenly, 3 where not): there direct light goes through reduced extinction, and the rest
 //   is gathered along one ray.
