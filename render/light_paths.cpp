@@ -118,7 +118,8 @@ class LightPaths::Walk {
         return true;
     }
 
-    bool at_end() const { return p_.ending_ && counted_ + 1 >= p_.ending_->bounces; }
+    // Whether a scattering on this ray is the ending's.
+    bool at_end() const { return p_.ending_ && scatterings_ + 1 >= p_.ending_->scatterings; }
 
     // Of the extinction towards lights: a solution's, at an ending.
     Coefficients at_vertex() const {
@@ -162,9 +163,9 @@ class LightPaths::Walk {
         if (!p_.lights_.from(place, x, light) || (at_end() && gathered(light))) return;
         const double cosine = glm::dot(direction_, light.direction);
         const double way = along.density(t), distance = p_.media_.density(ray_, t, shares_);
-        const double phase = at_end() || !(light.density > 0.0)
-                                 ? 0.0
-                                 : p_.media_.direction_density(on->medium, cosine) / light.density;
+        const double phase = light.density > 0.0
+                                 ? p_.media_.direction_density(on->medium, cosine) / light.density
+                                 : 0.0;
         const double share = power(way, distance, distance * phase);  // (54)
         if (!(share > 0.0) || !sees(x, place, light, on->medium, at_vertex())) return;
         p_.media_.transmittance(ray_, t, transmittance_);
@@ -201,10 +202,10 @@ class LightPaths::Walk {
         const double density = p_.media_.direction_density(c.medium, cosine);
         for (std::size_t b = 0; b < bands_; ++b)
             weight_[b] *= p_.media_.scattered(c.medium, b, cosine) / density;
-        if (end) return hand_over({.x = x}, next), false;
         before_ = {true, density, c.density, {origin_, direction_}, begin_, end_, t};
         move(x, next, c.medium);
-        ++counted_;
+        if (end) return hand_over(), false;
+        ++scatterings_;
         return roulette();
     }
 
@@ -215,9 +216,9 @@ class LightPaths::Walk {
         const double cosine = glm::dot(direction_, light.direction);
         const double aside =
             place.infinite ? 0.0 : Equiangular(ray_, begin_, end_, place.at).density(t);
-        const double phase = at_end() || !(light.density > 0.0)
-                                 ? 0.0
-                                 : p_.media_.direction_density(c.medium, cosine) / light.density;
+        const double phase = light.density > 0.0
+                                 ? p_.media_.direction_density(c.medium, cosine) / light.density
+                                 : 0.0;
         const double share = power(c.density, aside, c.density * phase);  // (54)
         if (!sees(x, place, light, c.medium, at_vertex())) return;
         const Part to = scattered_into(light.direct);
@@ -243,7 +244,10 @@ class LightPaths::Walk {
         const double w = weight_of_met(p_.lights_.environment_density(), {}, true);
         for (std::size_t b = 0; b < bands_; ++b)
             add(into_.indirect, b, weight_[b] * w * p_.e_.environment[b]);
-        if (rays_ == 1) return;  // suns are not drawn where the eye looks at them
+        if (rays_ > 1) meet_suns();  // they are not drawn where the eye looks at them
+    }
+
+    void meet_suns() {
         for (std::size_t k = 0; k < p_.lights_.sun_count(); ++k) {
             std::ranges::fill(sun_, 0.0);
             const double density = p_.lights_.sun_disc(direction_, k, sun_);
@@ -254,15 +258,20 @@ class LightPaths::Walk {
         }
     }
 
-    bool strike() {
+    // What a surface sends out by itself.
+    void meet_emitter() {
         const auto& optics = p_.e_.sides[sight_.surface];
-        const Point on = ray_.at(sight_.distance);
         const double cosine = -glm::dot(direction_, sight_.normal);
         const double met = p_.lights_.density(sight_.facet, sight_.side, sight_.distance, cosine);
-        const double w = weight_of_met(met, on, false);
+        const double w = weight_of_met(met, ray_.at(sight_.distance), false);
         const Part to = radiosity::shines(optics) ? into_.direct : into_.indirect;
         for (std::size_t b = 0; b < bands_; ++b) add(to, b, weight_[b] * w * optics.emission[b]);
-        return reflect(sight_.surface, on + p_.hits_.offset() * sight_.normal);
+    }
+
+    bool strike() {
+        meet_emitter();
+        return reflect(sight_.surface,
+                       ray_.at(sight_.distance) + p_.hits_.offset() * sight_.normal);
     }
 
     Into reflected_into(Lobe lobe) const {
@@ -273,7 +282,7 @@ class LightPaths::Walk {
 
     bool reflect(std::uint32_t side, Point x) {
         const double specular = p_.scattering_.specular_share(side);
-        const bool end = at_end();
+        const bool end = p_.ending_ != nullptr;
         const double chance = end ? 1.0 : specular;  // of going on by the specular lobe
         if (!p_.lights_.empty()) reflect_light(side, x, chance, end);
         if (end && specular < 1.0) reflect_end(side, x);
@@ -289,7 +298,6 @@ class LightPaths::Walk {
         for (double& w : weight_) w /= choice;
         before_ = {false, bounce.density * choice, 0.0, {}, 0.0, 0.0, 0.0};
         move(x, bounce.direction, sight_.medium);
-        if (!mirrored) ++counted_;
         return roulette();
     }
 
@@ -333,9 +341,18 @@ class LightPaths::Walk {
             add(into.indirect, b, weight_[b] * optics.diffuse(b) * value_[b]);
     }
 
-    void hand_over(const PathEnd& at, Direction next) {
-        p_.ending_->gather(at, next, value_);
+    // What a solution says of the ray that a medium scattered: lights that it meets, by their
+    // weight among the ways to find them, and all the rest.
+    void hand_over() {
+        p_.ending_->gather({.x = origin_}, direction_, value_);
         for (std::size_t b = 0; b < bands_; ++b) add(into_.indirect, b, weight_[b] * value_[b]);
+        p_.hits_.look(origin_, direction_, medium_, sight_);
+        ray_ = {origin_, direction_, sight_.stretches};
+        p_.media_.transmittance(ray_, sight_.distance, transmittance_, Coefficients::reduced);
+        for (std::size_t b = 0; b < bands_; ++b) weight_[b] *= transmittance_[b];
+        if (sight_.end == SightEnd::outside) return meet_suns();
+        if (sight_.surface == none || !p_.ending_->emitters_are_direct) return;
+        if (radiosity::shines(p_.e_.sides[sight_.surface])) meet_emitter();
     }
 
     void move(Point x, Direction next, std::uint32_t medium) {
@@ -369,7 +386,7 @@ class LightPaths::Walk {
     Into into_;
     Before before_;
     bool first_ = true;  // on the ray from the camera
-    std::size_t rays_ = 0, bounces_ = 0, counted_ = 0;
+    std::size_t rays_ = 0, bounces_ = 0, scatterings_ = 0;
 };
 
 LightPaths::LightPaths(const radiosity::Enclosure& enclosure, const PathEnding* ending)

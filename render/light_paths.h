@@ -21,9 +21,9 @@ struct PathEnd {
 
 // What stands in for all that a path would find beyond a number of bounces.
 struct PathEnding {
-    // Reflections by Lambertian surfaces and scatterings that are followed; the last of them is the
-    // ending's. At least 1.
-    std::size_t bounces = 1;
+    // Scatterings by media that are followed; the last of them is the ending's, as is any reflection
+    // by a Lambertian surface. At least 1.
+    std::size_t scatterings = 1;
     // Incident radiance straight from lights on a surface, cosine-weighted [W/m²/sr].
     std::function<void(const PathEnd&, std::span<double>)> direct;
     // Radiance from a direction, lights that count as direct apart [W/m²/sr].
@@ -42,8 +42,9 @@ struct PathEnding {
 //   Emission of media is added along every ray in closed form.
 // Not found: what a mirror throws of point lights and of suns without a diameter (no path meets
 //   them); a rough one does.
-// With an ending, paths stop at its last bounce: surfaces take direct light and one ray of the rest
-//   from it; media look for lights through reduced extinction, as it does.
+// With an ending, paths stop at the first Lambertian surface, or at its last scattering: surfaces
+//   take direct light and one ray of the rest from it; media look for lights through reduced
+//   extinction, as it does.
 // Source: Kajiya (1986); Veach & Guibas (1995); Kulla & Fajardo (2012).
 class LightPaths {
   public:

@@ -92,10 +92,15 @@ class Rounds {
             const double n = double(batches_of(pixel) * how_.batch);
             for (std::size_t b = 0; b < bands_; ++b) {
                 const std::size_t value = pixel * bands_ + b;
-                image.layers[beauty].values[value] = float(sum_of(pixel, b) / n);
-                for (std::size_t p = 0; p <= part_count; ++p)
-                    if (layer[p] != beauty)
-                        image.layers[layer[p]].values[value] = float(part(pixel, p, b) / n);
+                double sum = 0.0;
+                for (std::size_t p = 0; p <= part_count; ++p) {
+                    double mean = part(pixel, p, b) / n;
+                    // What corrects a solution may take more than there is, by its noise.
+                    if (p == single_scattering) mean = std::max(0.0, mean);
+                    if (p < part_count) sum += mean;
+                    if (layer[p] != beauty) image.layers[layer[p]].values[value] = float(mean);
+                }
+                image.layers[beauty].values[value] = float(sum);
                 image.layers[error].values[value] = float(std::sqrt(variance(pixel, b)));
             }
             image.layers[depth].values[pixel] = depth_[pixel];

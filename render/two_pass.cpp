@@ -19,9 +19,12 @@ using radiosity::none;
 using radiosity::PatchId;
 using radiosity::ZoneId;
 
-constexpr std::size_t batch = 4;             // samples that are stratified together
-constexpr std::size_t bounces_of_lobes = 3;  // where media do not scatter evenly
-constexpr double nothing_left = 1e-9;        // of transmittance
+// Zones below this share of their distance stand for their leaves, as in the solve's own last
+// gathers.
+constexpr double gather_detail = 0.2;
+constexpr std::size_t batch = 8;                 // samples that are stratified together
+constexpr std::size_t scatterings_of_lobes = 3;  // where media do not scatter evenly
+constexpr double nothing_left = 1e-9;            // of transmittance
 
 // A solution's light, as paths ask for it.
 class SolvedLight {
@@ -31,7 +34,7 @@ class SolvedLight {
           e_(*solution.enclosure),
           eye_(mesh::locate(e_.mesh, camera.eye)),
           light_(e_, {.emitters = closed_form()}),
-          gathered_(e_, s_.forest, radiosity::reflected_sources(s_)) {}
+          gathered_(e_, s_.forest, radiosity::reflected_sources(s_), gather_detail) {}
 
     const radiosity::Solution& solution() const { return s_; }
     const radiosity::Enclosure& enclosure() const { return e_; }
@@ -96,8 +99,7 @@ class EvenScene {
             mesh::walk(e_.mesh, ray, {entry.tet}, [&](TetId tet, double in, double out) {
                 const auto medium = e_.solid(tet) ? none : e_.medium_of(tet);
                 if (medium == none) return true;
-                passed.push_back({tet, {medium, in, out}});
-                return cross(ray, tet, e_.media[medium], in, out, seen);
+                return cross(ray, tet, e_.media[medium], in, out, passed, seen);
             });
         single(ray, passed, u, random, seen);
         if (end.arrival == mesh::Arrival::struck) {
@@ -112,6 +114,7 @@ class EvenScene {
   private:
     struct Passed {
         TetId tet;
+        ZoneId zone;  // a leaf
         Stretch stretch;
     };
     using Numbers = std::array<double, radiosity::point_set_dimensions>;
@@ -120,14 +123,16 @@ class EvenScene {
         seen.radiance[part * bands_ + band] += value;
     }
 
-    // What the zones of a tet emit and scatter of indirect light (25).
+    // What the zones of a tet emit and scatter, direct light as its leaves hold it (25).
     bool cross(const mesh::Ray& ray, TetId tet, const radiosity::MediumOptics& optics, double t_in,
-               double t_out, Seen& seen) const {
+               double t_out, std::vector<Passed>& passed, Seen& seen) const {
+        const auto medium = e_.medium_of(tet);
         return mesh::descend(
             s_.forest, mesh::root_zone(tet), ray, t_in, t_out, mesh::at_leaves,
             [&](ZoneId zone, double in, double out) {
-                const Point a = ray.origin + in * ray.direction;
-                const Point b = ray.origin + out * ray.direction;
+                passed.push_back({tet, zone, {medium, in, out}});
+                const Point a = ray.origin + in * ray.direction,
+                            b = ray.origin + out * ray.direction;
                 double most = 0.0;
                 for (std::size_t k = 0; k < bands_; ++k) {
                     const auto w =
@@ -135,13 +140,15 @@ class EvenScene {
                             ? radiosity::segment_weights(optics.extinction[k] * (out - in))
                             : optics.varying[k].weights(ray.origin, ray.direction, in, out);
                     double& transmittance = seen.transmittance[k];
-                    const auto& indirect = s_.indirect.at(zone, k);
+                    const auto held = [&](const radiosity::Affine& f) {
+                        return w.front * std::max(0.0, f.at(a)) + w.back * std::max(0.0, f.at(b));
+                    };
                     add(seen, emission, k,
                         transmittance * (w.front + w.back) * radiosity::emission_of(s_, zone, k));
+                    add(seen, single_scattering, k,
+                        transmittance * optics.albedo[k] * held(s_.direct.at(zone, k)));
                     add(seen, multiple_scattering, k,
-                        transmittance * optics.albedo[k] *
-                            (w.front * std::max(0.0, indirect.at(a)) +
-                             w.back * std::max(0.0, indirect.at(b))));
+                        transmittance * optics.albedo[k] * held(s_.indirect.at(zone, k)));
                     transmittance *= w.transmittance;
                     most = std::max(most, transmittance);
                 }
@@ -149,7 +156,8 @@ class EvenScene {
             });
     }
 
-    // Direct light scattered once, from two places on the ray.
+    // What direct light scattered once departs by from what the leaves hold, from two places on the
+    // ray.
     void single(const mesh::Ray& ray, std::span<const Passed> passed, const Numbers& u,
                 RandomNumbers& random, Seen& seen) const {
         if (passed.empty() || solved_.light().empty()) return;
@@ -185,23 +193,30 @@ class EvenScene {
         }
     }
 
-    // Adds what is scattered at one place, times a weight [m].
+    // Adds what is scattered at one place beyond what its leaf holds, times a weight [m].
     void lit(const PassedRay& ray, std::span<const Passed> passed, double t, double weight,
              Seen& seen) const {
-        const auto at = std::ranges::find_if(
-            passed, [&](const Passed& p) { return t >= p.stretch.begin && t <= p.stretch.end; });
-        if (at == passed.end() || !(weight > 0.0)) return;
+        const auto at = std::lower_bound(
+            passed.begin(), passed.end(), t,
+            [](const Passed& p, double distance) { return p.stretch.end < distance; });
+        if (at == passed.end() || t < at->stretch.begin || !(weight > 0.0)) return;
         thread_local std::vector<double> incident, transmittance;
         incident.resize(bands_);
         transmittance.resize(bands_);
         const Point x = ray.at(t);
         solved_.light().at_zone(x, at->tet, incident);
         media_.transmittance(ray, t, transmittance);
-        const auto medium = at->stretch.medium;
-        for (std::size_t b = 0; b < bands_; ++b)
+        const auto& [medium, begin, end] = at->stretch;
+        const double share = (t - begin) / (end - begin);
+        for (std::size_t b = 0; b < bands_; ++b) {
+            // As the closed form has it: linear between what it is at the leaf's two faces.
+            const auto& f = s_.direct.at(at->zone, b);
+            const double held = (1.0 - share) * std::max(0.0, f.at(ray.at(begin))) +
+                                share * std::max(0.0, f.at(ray.at(end)));
             add(seen, single_scattering, b,
                 weight * transmittance[b] * media_.extinction(medium, b, x) *
-                    media_.albedo(medium, b) * incident[b]);
+                    media_.albedo(medium, b) * (incident[b] - held));
+        }
     }
 
     void strike(const mesh::Ray& ray, const mesh::WalkEnd& end, const Numbers& u,
@@ -250,14 +265,16 @@ Image two_pass(const radiosity::Solution& solution, const Camera& camera,
     const SolvedLight solved(solution, camera);
     const auto& enclosure = solved.enclosure();
     const bool even = PathMedia(enclosure).isotropic();
-    if (even && !has_specular(enclosure) && options.bounces <= 1) {
+    if (even && !has_specular(enclosure) && options.scatterings <= 1) {
         const EvenScene scene(solved);
         const Sampler sampler = [&](const mesh::Ray& ray, const SampleAt& at, RandomNumbers& random,
                                     Seen& seen) { scene.sample(ray, at, random, seen); };
         return sampled_picture(enclosure, camera, options, {.batch = batch}, sampler, progress);
     }
     PathEnding ending;
-    ending.bounces = options.bounces > 0 ? options.bounces : even ? 1 : bounces_of_lobes;
+    ending.scatterings = options.scatterings > 0 ? options.scatterings
+                         : even                  ? 1
+                                                 : scatterings_of_lobes;
     ending.emitters_are_direct = solved.closed_form();
     ending.direct = [&](const PathEnd& at, std::span<double> h) { solved.direct(at, h); };
     ending.gather = [&](const PathEnd& at, Direction from, std::span<double> radiance) {

@@ -106,7 +106,7 @@ TEST_CASE("Two passes: mirrors and gloss", "[picture]") {
     SECTION("gloss") {
         scene.materials.back().roughness = 0.3;
     }
-    scene.surfaces[test::surface_named(scene, "room.y1")].material = 2;
+    scene.surfaces[test::surface_named(scene, "right")].material = 2;
     const auto camera = small_camera();
     const auto solution = solved(scene, camera, 0.05);
     const auto paths = render::path_traced(*solution.enclosure, camera, {.samples = 512});
