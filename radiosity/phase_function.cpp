@@ -8,7 +8,7 @@
 namespace tyndall::radiosity {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 double sample_cosine(const PhaseFunction& phase, double u) {
     if (phase.kind == PhaseKind::rayleigh) {

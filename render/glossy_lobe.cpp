@@ -12,7 +12,7 @@ namespace {
 
 using mesh::Direction;
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double least_roughness = 0.03;
 constexpr std::size_t cosines = 256, samples = 1024;
 

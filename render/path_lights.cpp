@@ -12,7 +12,7 @@ namespace tyndall::render {
 namespace {
 
 using radiosity::none;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 double mean(const Spectrum& s) {
     double sum = 0.0;

@@ -11,7 +11,7 @@
 namespace tyndall::render {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 double ratio(double part, double whole) {
     return whole > 0.0 ? part / whole : 0.0;

@@ -11,7 +11,7 @@ namespace tyndall::render {
 namespace {
 
 using mesh::Direction;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // Axes across the normal.
 struct Frame {
