@@ -35,6 +35,9 @@ const KeyTable& material() {
         {
             {"name", "string", "required", "how surfaces speak of it"},
             {"reflectance", "number from 0 to 1, or one a band", "required", "Lambertian"},
+            {"specular", "number from 0 to 1, or one a band", "0",
+             "reflected about the mirror direction, beside reflectance: both add up to 1 at most"},
+            {"roughness", "number from 0 to 1", "0", "of the specular part; 0: a mirror"},
             {"emission", "number [W/m²/sr], or one a band", "", "radiance"},
             {"exitance", "number [W/m²], or one a band", "", "π × radiance"},
             {"power", "number [W], or one a band", "", "of the whole surface"},
@@ -198,7 +201,8 @@ const KeyTable& extinction() {
 const KeyTable& phase() {
     static const KeyTable table{
         "phase",
-        {{"henyey_greenstein", "number above -1 and below 1", "required", "mean cosine g"}}};
+        {{"henyey_greenstein", "number above -1 and below 1", "", "mean cosine g; or rayleigh"},
+         {"rayleigh", "true", "", "particles much smaller than the wavelength"}}};
     return table;
 }
 

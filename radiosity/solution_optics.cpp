@@ -103,7 +103,9 @@ Json side_json(const SurfaceSide& side) {
             {"emission", side.emission},
             {"area", side.area},
             {"emissivity", side.emissivity},
-            {"settled_flux", optional_json(side.settled_flux)}};
+            {"settled_flux", optional_json(side.settled_flux)},
+            {"specular", side.specular},
+            {"roughness", side.roughness}};
 }
 
 // Files of earlier versions have no emissivity, nor what comes after it.
@@ -115,7 +117,9 @@ SurfaceSide side_from(const Json& json) {
             json.at("emission").get<Spectrum>(),
             json.at("area").get<double>(),
             json.value("emissivity", Spectrum()),
-            optional_of(json, "settled_flux")};
+            optional_of(json, "settled_flux"),
+            json.value("specular", Spectrum()),
+            json.value("roughness", 0.0)};
 }
 
 Json medium_json(const MediumOptics& medium) {
@@ -124,13 +128,23 @@ Json medium_json(const MediumOptics& medium) {
             {"albedo", medium.albedo},
             {"emission", medium.emission},
             {"absorption", medium.absorption},
-            {"settled_heat", optional_json(medium.settled_heat)}};
+            {"settled_heat", optional_json(medium.settled_heat)},
+            {"scattering", medium.scattering},
+            {"rayleigh", medium.phase.kind == PhaseKind::rayleigh},
+            {"asymmetry", medium.phase.asymmetry}};
 }
 
 MediumOptics medium_from(const Json& json) {
-    return {json.at("name").get<std::string>(),    json.at("extinction").get<Spectrum>(),
-            json.at("albedo").get<Spectrum>(),     json.at("emission").get<Spectrum>(),
-            json.at("absorption").get<Spectrum>(), optional_of(json, "settled_heat")};
+    return {json.at("name").get<std::string>(),
+            json.at("extinction").get<Spectrum>(),
+            json.at("albedo").get<Spectrum>(),
+            json.at("emission").get<Spectrum>(),
+            json.at("absorption").get<Spectrum>(),
+            optional_of(json, "settled_heat"),
+            {},
+            json.value("scattering", Spectrum()),
+            {json.value("rayleigh", false) ? PhaseKind::rayleigh : PhaseKind::henyey_greenstein,
+             json.value("asymmetry", 0.0)}};
 }
 
 Json optics_json(const Enclosure& e) {
@@ -177,10 +191,11 @@ bool spectra_fit(const Enclosure& e) {
     if (!model.grey_gases.gases.empty()) good = good && model.grey_gases.bands() == e.bands;
     for (const auto& side : e.sides)
         good = good && fits(side.reflectance) && fits(side.emission) &&
-               (side.emissivity.empty() || fits(side.emissivity));
+               (side.emissivity.empty() || fits(side.emissivity)) &&
+               (side.specular.empty() || fits(side.specular));
     for (const auto& m : e.media)
-        good =
-            good && fits(m.extinction) && fits(m.albedo) && fits(m.emission) && fits(m.absorption);
+        good = good && fits(m.extinction) && fits(m.albedo) && fits(m.emission) &&
+               fits(m.absorption) && (m.scattering.empty() || fits(m.scattering));
     for (const auto& light : e.lights)
         good = good && std::visit(
                            [&](const auto& source) {

@@ -14,6 +14,7 @@
 #include "radiosity/direct_light.h"
 #include "radiosity/point_set.h"
 #include "radiosity/segment.h"
+#include "render/picture_parts.h"
 
 namespace tyndall::render {
 namespace {
@@ -24,24 +25,7 @@ using radiosity::none;
 using radiosity::PatchId;
 using radiosity::ZoneId;
 
-enum Part {
-    emission,
-    surfaces_direct,
-    surfaces_indirect,
-    single_scattering,
-    multiple_scattering,
-    parts
-};
-
-constexpr const char* part_names[parts] = {"emission", "surfaces_direct", "surfaces_indirect",
-                                           "single_scattering", "multiple_scattering"};
-
-// What one ray sees, a value a part and band ([part * bands + band]).
-struct Seen {
-    std::vector<double> radiance;
-    std::vector<double> transmittance;
-    double depth = std::numeric_limits<double>::infinity();
-};
+constexpr std::size_t parts = specular_reflection;  // of those there are: nothing is specular here
 
 class LineOfSight {
   public:
@@ -160,7 +144,7 @@ Image blank(const Camera& camera, std::size_t bands) {
             {name, channels, std::vector<float>(image.width * image.height * channels)});
     };
     add("beauty", bands);
-    for (const char* name : part_names) add(name, bands);
+    for (std::size_t p = 0; p < parts; ++p) add(part_names[p], bands);
     add("transmittance", bands);
     add("depth", 1);
     return image;
