@@ -21,8 +21,8 @@ struct PathEnd {
 
 // What stands in for all that a path would find beyond a number of bounces.
 struct PathEnding {
-    // Scatterings by media that are followed; the last of them is the ending's, as is any reflection
-    // by a Lambertian surface. At least 1.
+    // Scatterings by media that are followed; the last of them is the ending's, as is any
+    // reflection by a Lambertian surface. At least 1.
     std::size_t scatterings = 1;
     // Incident radiance straight from lights on a surface, cosine-weighted [W/m²/sr].
     std::function<void(const PathEnd&, std::span<double>)> direct;

@@ -21,8 +21,8 @@ struct RenderOptions {
     double error = 0.0;
     // Or until so much wall time is spent, whichever is first; 0: no limit [s].
     double time = 0.0;
-    // two_pass: scatterings by chance, the last of which takes the solution's light; 0: what the media
-    // need (two_pass.h).
+    // two_pass: scatterings by chance, the last of which takes the solution's light; 0: what the
+    // media need (two_pass.h).
     std::size_t scatterings = 0;
     std::uint64_t seed = 1;
     std::size_t threads = 0;  // 0: all

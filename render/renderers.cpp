@@ -8,6 +8,7 @@
 #include "mesh/input_error.h"
 #include "render/line_of_sight.h"
 #include "render/path_traced.h"
+#include "render/projected_zones.h"
 #include "render/two_pass.h"
 
 namespace tyndall::render {
@@ -15,6 +16,7 @@ namespace {
 
 constexpr NamedRenderer all[]{
     {"line_of_sight", line_of_sight},
+    {"projected_zones", projected_zones},
     {"two_pass", two_pass, true},
     {"path_traced", path_traced_scene, true},
 };

@@ -172,7 +172,9 @@ class Rounds {
                 RandomNumbers random(seed, n);
                 const auto u = points_(n, seed);
                 seen.clear(bands_);
-                sampler_(rays_(double(x) + u[0], double(y) + u[1]), {seed, n}, random, seen);
+                glm::dvec2 lens(0.5);
+                if (camera_.lens) lens = {random(), random()};
+                sampler_(rays_(double(x) + u[0], double(y) + u[1], lens), {seed, n}, random, seen);
                 for (std::size_t i = 0; i < part_count * bands_; ++i) {
                     sums[i] += seen.radiance[i];
                     mean[i % bands_] += seen.radiance[i];

@@ -1,6 +1,7 @@
 #include "render/tone_map.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -108,6 +109,15 @@ std::span<const std::string_view> tone_curve_names() {
     static constexpr std::array<std::string_view, 4> names{"shoulder", "filmic", "reinhard",
                                                            "linear"};
     return names;
+}
+
+ToneCurve tone_curve_named(std::string_view name) {
+    const auto names = tone_curve_names();
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end())
+        throw mesh::InputError(fmt::format("there is no tone curve \"{}\". Choose one of {}.", name,
+                                           fmt::join(names, ", ")));
+    return static_cast<ToneCurve>(found - names.begin());
 }
 
 double srgb_encode(double light) {

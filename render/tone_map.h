@@ -44,6 +44,9 @@ double tone_curve(ToneCurve curve, double s);
 // Names of the curves, in their order.
 std::span<const std::string_view> tone_curve_names();
 
+// Errors: mesh::InputError that lists the names there are.
+ToneCurve tone_curve_named(std::string_view name);
+
 // Purpose: the sRGB code, 0 to 1, of the screen's light, 0 to 1. Source: IEC 61966-2-1.
 double srgb_encode(double light);
 
