@@ -58,16 +58,14 @@ class Projector {
         auto& buffer = buffers_.local(fresh);
         if (!buffer) {
             buffer.emplace(drawn_);
-            buffer->look_from(view_.eye, {view_.right, view_.up, view_.forward});
+            buffer->look_from(view_.eye, {view_.right, -view_.up, view_.forward});
         }
         std::vector<PictureSums::Sums> sums(count * camera_.width);
         for (auto& sum : sums) picture_.begin(sum);
         Seen seen;
         buffer->look(face(first, count), [&](const ItemBuffer::Pixel& pixel) {
             lay(pixel, first, count, seen);
-            // v goes up.
-            const std::size_t y = count - 1 - pixel.v / across_;
-            picture_.add(seen, sums[y * camera_.width + pixel.u / across_]);
+            picture_.add(seen, sums[pixel.v / across_ * camera_.width + pixel.u / across_]);
         });
         for (std::size_t k = 0; k < sums.size(); ++k)
             picture_.end(sums[k], first * camera_.width + k, across_ * across_);
@@ -76,7 +74,8 @@ class Projector {
     Image take() { return picture_.take(); }
 
   private:
-    // The part of the plane before the eye that those rows show.
+    // The part of the plane before the eye that those rows show: u to the right, v down, so that
+    // the cube's frame is right-handed.
     CubeFace face(std::size_t first, std::size_t count) const {
         const double width = double(camera_.whole_width ? camera_.whole_width : camera_.width);
         const double height = double(camera_.whole_height ? camera_.whole_height : camera_.height);
@@ -84,12 +83,12 @@ class Projector {
             return view_.half_x * (2.0 * double(camera_.left + x) / width - 1.0);
         };
         const auto v = [&](std::size_t y) {
-            return view_.half_y * (1.0 - 2.0 * double(camera_.top + y) / height);
+            return view_.half_y * (2.0 * double(camera_.top + y) / height - 1.0);
         };
         return {.u_min = u(0),
                 .u_max = u(camera_.width),
-                .v_min = v(first + count),
-                .v_max = v(first),
+                .v_min = v(first),
+                .v_max = v(first + count),
                 .nu = across_ * camera_.width,
                 .nv = across_ * count};
     }
@@ -99,7 +98,7 @@ class Projector {
         const auto& e = *s_.enclosure;
         const auto d = face(first, count).direction(pixel.u, pixel.v);
         const mesh::Ray ray{view_.eye,
-                            glm::normalize(d.x * view_.right + d.y * view_.up + view_.forward)};
+                            glm::normalize(d.x * view_.right - d.y * view_.up + view_.forward)};
         seen.clear(e.bands);
         if (pixel.column == radiosity::none) {
             seen_.leave(seen);
