@@ -23,7 +23,7 @@ using namespace tyndall::radiosity;
 namespace {
 
 struct Arguments {
-    std::size_t elements = 20000, rays = 256, only = 0;
+    std::size_t elements = 20000, rays = 256;
     std::vector<std::string> scenes;
 };
 
@@ -91,10 +91,6 @@ double solve(const cli::SceneFile& file, const Scene& scene, const Arguments& a)
 
 void compare(const std::string& path, const Arguments& a) {
     const auto file = cli::read_scene_file(path);
-    if (a.only > 0) {
-        solve(file, with_bands(file.scene, a.only, true), a);
-        return;
-    }
     fmt::print("{}\n  {:<24}", path, "1 band");
     const double one = solve(file, with_bands(file.scene, 1, false), a);
     fmt::print("\n");
@@ -118,8 +114,6 @@ int main(int count, char** words) {
             a.elements = std::stoul(value());
         else if (word == "--rays")
             a.rays = std::stoul(value());
-        else if (word == "--only")
-            a.only = std::stoul(value());
         else
             a.scenes.push_back(word);
     }
