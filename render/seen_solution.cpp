@@ -47,10 +47,13 @@ bool SeenSolution::cross(const mesh::Ray& ray, ZoneId zone, double t_in, double 
     const auto& optics = e_.media[medium_of(e_, s_.forest, zone)];
     const Point in = ray.origin + t_in * ray.direction, out = ray.origin + t_out * ray.direction;
     double most = 0.0;
+    radiosity::SegmentWeights w{};
+    radiosity::SegmentOfBands segment(ray.origin, ray.direction, t_in, t_out);
     for (std::size_t b = 0; b < bands_; ++b) {
-        const auto w = optics.varying.empty()
-                           ? radiosity::segment_weights(optics.extinction[b] * (t_out - t_in))
-                           : optics.varying[b].weights(ray.origin, ray.direction, t_in, t_out);
+        if (!optics.varying.empty())
+            w = segment.weights(optics.varying[b]);
+        else if (b == 0 || optics.extinction[b] != optics.extinction[b - 1])
+            w = radiosity::segment_weights(optics.extinction[b] * (t_out - t_in));
         double& transmittance = seen.transmittance[b];
         const auto gain = [&](Part part, double at_in, double at_out) {
             seen.radiance[part * bands_ + b] +=

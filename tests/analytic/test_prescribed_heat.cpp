@@ -124,7 +124,7 @@ TEST_CASE("A thin heated medium is as hot as its own heat says", "[heat]") {
     all_at(solve_heat(scene), "haze", std::pow(10.0 / (4e-4 * stefan_boltzmann), 0.25), 1e-4);
 }
 
-TEST_CASE("A radiation shield halves the flux", "[heat]") {
+TEST_CASE("Each side of an adiabatic sheet has the temperature of what it sees", "[heat]") {
     // An adiabatic sheet across a black box, one half at T1, the other at T2: with black walls both
     // sides of it see one temperature each, and none lets anything through: the sides are two
     // walls.
