@@ -18,7 +18,7 @@ mesh::Direction at_angle(double degrees) {
 }  // namespace
 
 TEST_CASE("A glossy lobe gives back all light, whatever its direction") {
-    const radiosity::PointSet points(1 << 14);
+    const radiosity::PointSet points(1 << 15);
     for (const double roughness : {0.1, 0.3, 0.6, 1.0}) {
         const render::GlossyLobe lobe(roughness);
         for (const double degrees : {0.0, 30.0, 60.0, 80.0, 88.0}) {
@@ -42,7 +42,7 @@ TEST_CASE("A glossy lobe gives back all light, whatever its direction") {
             const double mean = drawn / n, noise = std::sqrt((square / n - mean * mean) / n);
             CHECK(std::abs(mean - 1.0) < 4e-3 + 3.0 * noise);
             CHECK(noise < 0.01);
-            // Even directions resolve the lobe only where it is wide: 2^14 of them.
+            // Even directions resolve the lobe only where it is wide.
             if (roughness >= 0.6 && degrees <= 60.0) {
                 CHECK(over_sphere / n == Approx(1.0).margin(1e-2));
                 CHECK(of_density / n <= 1.0 + 1e-2);
