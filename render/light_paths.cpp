@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "render/equiangular.h"
+#include "render/power_heuristic.h"
 
 namespace tyndall::render {
 namespace {
@@ -15,13 +16,6 @@ using radiosity::SightEnd;
 
 constexpr std::size_t first_roulette = 3;  // bounce from which paths may end by chance
 constexpr double most_survival = 0.98;     // so that they end where nothing is absorbed
-
-// Weight of a way with density a among ways with densities a, b, c.
-double power(double a, double b, double c = 0.0) {
-    if (!(a > 0.0)) return 0.0;
-    const double p = b / a, q = c / a;
-    return 1.0 / (1.0 + p * p + q * q);
-}
 
 }  // namespace
 
@@ -122,9 +116,7 @@ class LightPaths::Walk {
     bool at_end() const { return p_.ending_ && scatterings_ + 1 >= p_.ending_->scatterings; }
 
     // Of the extinction towards lights: a solution's, at an ending.
-    Coefficients at_vertex() const {
-        return at_end() ? Coefficients::reduced : Coefficients::whole;
-    }
+    Coefficients at_vertex() const { return Coefficients(at_end()); }
 
     // Whether an ending's own gathers find this light as well.
     bool gathered(const FromLight& light) const {
@@ -166,7 +158,7 @@ class LightPaths::Walk {
         const double phase = light.density > 0.0
                                  ? p_.media_.direction_density(on->medium, cosine) / light.density
                                  : 0.0;
-        const double share = power(way, distance, distance * phase);  // (54)
+        const double share = power_heuristic(way, distance, distance * phase);  // (54)
         if (!(share > 0.0) || !sees(x, place, light, on->medium, at_vertex())) return;
         p_.media_.transmittance(ray_, t, transmittance_);
         const Part to = scattered_into(light.direct);
@@ -219,7 +211,7 @@ class LightPaths::Walk {
         const double phase = light.density > 0.0
                                  ? p_.media_.direction_density(c.medium, cosine) / light.density
                                  : 0.0;
-        const double share = power(c.density, aside, c.density * phase);  // (54)
+        const double share = power_heuristic(c.density, aside, c.density * phase);  // (54)
         if (!sees(x, place, light, c.medium, at_vertex())) return;
         const Part to = scattered_into(light.direct);
         for (std::size_t b = 0; b < bands_; ++b)
@@ -231,12 +223,13 @@ class LightPaths::Walk {
     // The weight, by the power heuristic, of having met a light of that density by this direction.
     double weight_of_met(double light_density, Point at, bool infinite) const {
         if (before_.density == 0.0) return 1.0;  // no other way finds it
-        if (!before_.in_medium) return power(before_.density, light_density);
+        if (!before_.in_medium) return power_heuristic(before_.density, light_density);
         const double aside =
             infinite ? 0.0
                      : Equiangular(before_.ray, before_.begin, before_.end, at).density(before_.t);
-        return power(before_.distance_density * before_.density,
-                     before_.distance_density * light_density, aside * light_density);  // (54)
+        return power_heuristic(before_.distance_density * before_.density,
+                               before_.distance_density * light_density,
+                               aside * light_density);  // (54)
     }
 
     // Into the environment.
@@ -318,7 +311,8 @@ class LightPaths::Walk {
                                    (lobe == Lobe::specular ? chance : 1.0 - chance);
             if (!seen && !sees(x, place, light, sight_.medium, Coefficients::whole)) return;
             seen = true;
-            const double share = light.density > 0.0 ? power(light.density, density) : 1.0;
+            const double share =
+                light.density > 0.0 ? power_heuristic(light.density, density) : 1.0;
             const Into into = reflected_into(lobe);
             const Part to = light.direct ? into.direct : into.indirect;
             for (std::size_t b = 0; b < bands_; ++b)

@@ -55,6 +55,17 @@ Departure departure(const render::Image& a, const render::Image& b, const std::s
     return result;
 }
 
+// A room of 3 × 2 × 2 m with fog and a lamp large enough for mirrors and lobes to find it.
+radiosity::Scene bright_room() {
+    radiosity::Scene scene;
+    scene.materials = {test::material(0.6), test::material(0.0, 10.0)};
+    test::add_surfaces(scene, "room", mesh::room({0, 0, 0}, {3, 2, 2}), 0);
+    test::add_surfaces(scene, "lamp", mesh::rectangle({0.9, 0.3, 2}, {0, 1.4, 0}, {1.8, 0, 0}), 1);
+    test::add_surfaces(scene, "block", mesh::box({1.8, 1.0, 0}, {2.4, 1.5, 0.7}), 0);
+    scene.media = {test::medium(0.25, 0.9)};
+    return scene;
+}
+
 double mean_of(const render::Image& image) {
     return test::over(image, "beauty").mean;
 }
@@ -84,40 +95,44 @@ TEST_CASE("Three renderers show the slit room alike, layer by layer", "[picture]
 }
 
 TEST_CASE("Two passes: fog that scatters forwards", "[picture]") {
-    auto scene = test::slit_room();
+    auto scene = bright_room();
     scene.media[0].asymmetry = 0.7;
-    scene.media[0].extinction = {0.5};
+    scene.media[0].extinction = {0.6};
     const auto camera = small_camera();
     const auto solution = solved(scene, camera, 0.05);
-    const auto paths = render::path_traced(*solution.enclosure, camera, {.samples = 512});
-    const auto two = render::two_pass(solution, camera, {.samples = 256});
+    const auto paths = render::path_traced(*solution.enclosure, camera, {.samples = 256});
+    const auto two = render::two_pass(solution, camera, {.samples = 128});
     const auto by_two = departure(paths, two, "beauty", mean_of(paths));
     INFO(by_two.found << " with noise of " << by_two.noise);
-    // 2 % is what is asked of 16 × 16 blocks of a picture.
+    // 2 % is what is asked of blocks.
     CHECK(by_two.found < std::hypot(2.0 * by_two.noise, 0.02));
-    CHECK(by_two.noise < 0.012);
+    CHECK(by_two.noise < 0.018);  // 1.5 % is what these few samples have: 1.2 % found
+    // The reduced coefficients alone do not show it: looking towards the lamp they are too dark.
+    const auto line = render::line_of_sight(solution, camera, {.samples = 16});
+    CHECK(departure(paths, line, "beauty", mean_of(paths)).found > 2.0 * by_two.found);
 }
 
 TEST_CASE("Two passes: mirrors and gloss", "[picture]") {
-    auto scene = test::slit_room();
-    scene.materials.push_back(test::material(0.1));
-    scene.materials.back().specular = {0.7};
+    auto scene = bright_room();
+    scene.materials.push_back(test::material(0.2));
+    scene.materials.back().specular = {0.6};
     SECTION("mirror") {}
     SECTION("gloss") {
         scene.materials.back().roughness = 0.3;
     }
-    scene.surfaces[test::surface_named(scene, "right")].material = 2;
+    for (auto& surface : scene.surfaces)
+        if (surface.name.starts_with("block")) surface.material = 2;
     const auto camera = small_camera();
     const auto solution = solved(scene, camera, 0.05);
-    const auto paths = render::path_traced(*solution.enclosure, camera, {.samples = 512});
-    const auto two = render::two_pass(solution, camera, {.samples = 256});
+    const auto paths = render::path_traced(*solution.enclosure, camera, {.samples = 256});
+    const auto two = render::two_pass(solution, camera, {.samples = 128});
     const double mean = mean_of(paths);
     for (const char* layer : {"beauty", "specular_reflection"}) {
         INFO(layer);
         const auto by_two = departure(paths, two, layer, mean);
-        // The solve scatters what the mirror throws: measured 2 % (docs/limits.md).
-        CHECK(by_two.found < std::hypot(2.0 * by_two.noise, 0.03));
-        CHECK(by_two.noise < 0.012);
+        // The solve scatters evenly what the block throws: 2 % are allowed for it.
+        CHECK(by_two.found < std::hypot(2.0 * by_two.noise, 0.02));
+        CHECK(by_two.noise < 0.01);
     }
-    CHECK(test::over(paths, "specular_reflection").mean > 0.02 * mean);
+    CHECK(test::over(paths, "specular_reflection").mean > 0.01 * mean);
 }

@@ -67,7 +67,7 @@ TEST_CASE("Followed paths: window shafts, by the noise of both pictures", "[pict
     camera.width = reference.width;  // a pixel is a block of 4 × 4 of the whole picture
     camera.height = reference.height;
     const auto image =
-        render::path_traced(radiosity::make_enclosure(file.scene), camera, {.samples = 96});
+        render::path_traced(radiosity::make_enclosure(file.scene), camera, {.samples = 400});
     const auto& ours = image.find("beauty")->values;
     const auto& error = image.find("error")->values;
     const auto& theirs = reference.layers[0].values;
@@ -83,6 +83,8 @@ TEST_CASE("Followed paths: window shafts, by the noise of both pictures", "[pict
     for (std::size_t k = 0; k < ours.size(); ++k)
         square +=
             std::pow(ours[k] - theirs[k], 2) / (std::pow(error[k], 2) + std::pow(of_reference, 2));
+    // What 4800 pixels of Gaussian noise make of it is 1 ± 0.01; rare paths that a pixel has none
+    // of, and so knows nothing of, add to it: 0.3 with 96 samples, 0.07 with 400.
     CHECK(std::sqrt(square / double(ours.size())) == Approx(1.0).margin(0.2));
     // No bias: 4.5 standard errors of the mean; the reference agrees with another renderer to
     // 0.02 %.

@@ -1,4 +1,5 @@
 // Phase functions: what they integrate to, and directions drawn from them.
+#include <glm/geometric.hpp>
 #include <numbers>
 
 #include "radiosity/phase_function.h"

@@ -18,25 +18,31 @@ mesh::Direction at_angle(double degrees) {
 }  // namespace
 
 TEST_CASE("A glossy lobe gives back all light, whatever its direction") {
-    const radiosity::PointSet points(1 << 14);
+    const radiosity::PointSet points(1 << 15);
     for (const double roughness : {0.1, 0.3, 0.6, 1.0}) {
         const render::GlossyLobe lobe(roughness);
         for (const double degrees : {0.0, 30.0, 60.0, 80.0, 88.0}) {
             const auto out = at_angle(degrees);
-            double drawn = 0.0, over_sphere = 0.0, of_density = 0.0;
+            double drawn = 0.0, square = 0.0, over_sphere = 0.0, of_density = 0.0;
             for (std::size_t k = 0; k < points.size(); ++k) {
                 const auto u = points(k, 3);
                 const auto in = lobe.sample(out, u[2], u[0], u[1]);
-                if (in.z > 0.0) drawn += lobe.value(out, in) * in.z / lobe.density(out, in);
+                const double v =
+                    in.z > 0.0 ? lobe.value(out, in) * in.z / lobe.density(out, in) : 0.0;
+                drawn += v;
+                square += v * v;
                 const auto any = radiosity::cosine_direction({0, 0, 1}, u[3], u[4]);
                 over_sphere += lobe.value(out, any) * std::numbers::pi;
                 of_density += lobe.density(out, any) * std::numbers::pi / any.z;
             }
             const double n = double(points.size());
             INFO("roughness " << roughness << ", " << degrees << " degrees");
-            // The table of E, and the net's own error.
-            CHECK(drawn / n == Approx(1.0).margin(4e-3));
-            // Even directions resolve the lobe only where it is wide: 2^14 of them.
+            // The table of E, and the noise of what few grazing directions carry where the lobe is
+            // narrow: 3 standard errors of independent points, more than a net's.
+            const double mean = drawn / n, noise = std::sqrt((square / n - mean * mean) / n);
+            CHECK(std::abs(mean - 1.0) < 4e-3 + 3.0 * noise);
+            CHECK(noise < 0.01);
+            // Even directions resolve the lobe only where it is wide.
             if (roughness >= 0.6 && degrees <= 60.0) {
                 CHECK(over_sphere / n == Approx(1.0).margin(1e-2));
                 CHECK(of_density / n <= 1.0 + 1e-2);
