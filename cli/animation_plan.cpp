@@ -14,18 +14,13 @@ namespace {
 using radiosity::compare_scenes;
 using radiosity::SceneChange;
 
-bool same_camera(const render::Camera& a, const render::Camera& b) {
-    return a.eye == b.eye && a.target == b.target && a.up == b.up && a.fov_x == b.fov_x &&
-           a.fov_y == b.fov_y && a.width == b.width && a.height == b.height;
-}
-
 const render::Camera* view_camera(const SceneFile& file) {
     return file.view_camera.empty() ? nullptr : &find_camera(file.cameras, file.view_camera);
 }
 
 bool same_view(const SceneFile& a, const SceneFile& b) {
     const auto *first = view_camera(a), *second = view_camera(b);
-    return first && second ? same_camera(*first, *second) : first == second;
+    return first && second ? *first == *second : first == second;
 }
 
 bool same_solve(const SceneFile& a, const SceneFile& b) {
@@ -36,7 +31,7 @@ std::vector<std::string> changes(const SceneFile& before, const SceneFile& after
     auto what = compare_scenes(before.scene, after.scene).what;
     for (const auto& camera : after.cameras)
         for (const auto& old : before.cameras)
-            if (old.name == camera.name && !same_camera(old, camera))
+            if (old.name == camera.name && !(old == camera))
                 what.push_back(fmt::format("camera \"{}\"", camera.name));
     if (before.view_camera != after.view_camera) what.push_back("camera");
     if (!same_solve(before, after)) what.push_back("settings of the solve");

@@ -8,6 +8,7 @@
 #include "radiosity/resources.h"
 #include "radiosity/solution_file.h"
 #include "render/image_files.h"
+#include "render/renderers.h"
 
 namespace tyndall::cli {
 namespace {
@@ -76,6 +77,11 @@ bool Animator::bodies_move(std::size_t index) {
     moving_.segment = index;
     SceneFile still = frames_[segment.first];
     moving_.obstacle = radiosity::why_nothing_kept(still.solve);
+    for (std::size_t f = segment.first; f < segment.end && moving_.obstacle.empty(); ++f) {
+        const std::string& method = frames_[f].render.method;
+        if (!frames_[f].cameras.empty() && !render::renderer_named(method).bodies)
+            moving_.obstacle = fmt::format("is drawn by \"{}\"", method);
+    }
     if (!moving_.obstacle.empty()) return false;
     still.scene = radiosity::without_surfaces(still.scene, segment.moving);
     moving_.still = mesh_scene(still, progress_);

@@ -8,6 +8,7 @@
 #include "cli/commands.h"
 #include "cli/compare_solutions.h"
 #include "cli/job.h"
+#include "cli/number_list.h"
 #include "mesh/input_error.h"
 #include "radiosity/solution_file.h"
 #include "render/compare.h"
@@ -21,7 +22,7 @@ namespace fs = std::filesystem;
 using mesh::InputError;
 
 struct CompareOptions {
-    std::string picture, reference, layer, difference;
+    std::string picture, reference, layer, difference, region;
     bool solutions = false;
     SolutionComparison comparison;
     std::optional<double> difference_range;
@@ -37,6 +38,7 @@ struct Side {
 constexpr const char* examples =
     R"(  tyndall compare out/ reference.pfm
   tyndall compare out/image.exr direct.pfm --layer direct_single --difference off.png
+  tyndall compare out/ reference.pfm --region 40,0,64,48
   tyndall compare out/ before/ --max-block4 0.01 || echo worse
   tyndall compare out/ fine/ --solutions)";
 
@@ -66,6 +68,15 @@ Side load(const std::string& given, const std::string& layer) {
     }
 }
 
+// What of it is to be compared: "left,top,width,height" in pixels.
+void cut(Side& side, const std::string& text) {
+    const auto n = count_list(text, 4, "--region", "left,top,width,height in pixels");
+    const render::Region region{n[0], n[1], n[2], n[3]};
+    side.layer = render::region_of(side.width, side.height, side.layer, region);
+    side.width = region.width;
+    side.height = region.height;
+}
+
 nlohmann::ordered_json as_json(const Side& picture, const Side& reference,
                                const render::PictureError& error) {
     return {{"picture", picture.path.string()},
@@ -78,6 +89,7 @@ nlohmann::ordered_json as_json(const Side& picture, const Side& reference,
             {"reference_mean", error.reference_mean},
             {"rmse", error.rmse},
             {"bias", error.bias},
+            {"mape", error.mape},
             {"block4", error.block4},
             {"block16", error.block16},
             {"max_error", error.max_error},
@@ -96,11 +108,12 @@ std::string as_text(const Side& picture, const Side& reference, const render::Pi
                         error.reference_mean);
     text += fmt::format("bias          {:+.4f} %\n", 100.0 * error.bias);
     text += fmt::format("RMSE          {:.4f} %\n", 100.0 * error.rmse);
+    text += fmt::format("MAPE          {:.4f} %\n", 100.0 * error.mape);
     text += fmt::format("4x4 blocks    {:.4f} %\n", 100.0 * error.block4);
     text += fmt::format("16x16 blocks  {:.4f} %\n", 100.0 * error.block16);
     text += fmt::format("largest       {:.4f} % at pixel ({}, {})\n", 100.0 * error.max_error,
                         error.max_x, error.max_y);
-    text += "Errors are relative to the reference's mean.\n";
+    text += "Errors are relative to the reference's mean, MAPE to its values.\n";
     if (error.negative > 0) text += fmt::format("{} values are negative.\n", error.negative);
     return text;
 }
@@ -133,14 +146,18 @@ void write_difference(const CompareOptions& options, const Side& picture, const 
 }
 
 int compare_pictures(const CompareOptions& options, const CommonFlags& flags) {
-    const auto picture = load(options.picture, options.layer);
-    const auto reference = load(options.reference, options.layer);
+    auto picture = load(options.picture, options.layer);
+    auto reference = load(options.reference, options.layer);
     if (picture.width != reference.width || picture.height != reference.height)
         throw InputError(
             fmt::format("'{}' has {} × {} pixels and '{}' has {} × {}. Render them in "
                         "the same size.",
                         picture.path.string(), picture.width, picture.height,
                         reference.path.string(), reference.width, reference.height));
+    if (!options.region.empty()) {
+        cut(picture, options.region);
+        cut(reference, options.region);
+    }
     const auto error =
         render::compare(picture.width, picture.height, picture.layer, reference.layer);
     if (!options.difference.empty()) write_difference(options, picture, reference);
@@ -209,10 +226,11 @@ std::string verdict(const CompareOptions& options, const SolutionErrors& errors)
 }
 
 int compare_solution_files(const CompareOptions& options, const CommonFlags& flags) {
-    if (!options.layer.empty() || !options.difference.empty() || options.max_block4 ||
-        options.max_block16)
+    if (!options.layer.empty() || !options.difference.empty() || !options.region.empty() ||
+        options.max_block4 || options.max_block16)
         throw InputError(
-            "--layer, --difference and block errors speak of pictures, and solutions are to be "
+            "--layer, --region, --difference and block errors speak of pictures, and solutions are "
+            "to be "
             "compared. Leave them out, or give pictures.");
     const auto path = solution_path(options.picture), reference = solution_path(options.reference);
     const auto file = radiosity::read_solution(path);
@@ -257,6 +275,7 @@ void add_compare_command(Shell& shell) {
     command.option("--layer", options->layer,
                    "Layer to compare; direct_single: emission + surfaces_direct + "
                    "single_scattering");
+    command.option("--region", options->region, "Compare these pixels only: left,top,width,height");
     command.option("--difference", options->difference,
                    "Write the difference as .png: red is too bright, blue too dark");
     command

@@ -10,7 +10,7 @@
 #include "mesh/file_bytes.h"
 #include "mesh/input_error.h"
 #include "radiosity/adaptive.h"
-#include "render/line_of_sight.h"
+#include "render/renderers.h"
 
 namespace tyndall::cli {
 
@@ -75,10 +75,8 @@ const render::Camera& find_camera(const std::vector<render::Camera>& cameras,
 
 render::Image make_picture(const radiosity::Solution& solution, const render::Camera& camera,
                            const render::RenderOptions& options, ProgressLine& progress) {
-    if (options.method == "line_of_sight")
-        return render::line_of_sight(solution, camera, options, progress.callback());
-    throw InputError(fmt::format("there is no render method \"{}\". There is: \"line_of_sight\".",
-                                 options.method));
+    return render::renderer_named(options.method)
+        .render(solution, camera, options, progress.callback());
 }
 
 void prepare_folder(const fs::path& folder) {

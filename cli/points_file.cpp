@@ -40,9 +40,9 @@ std::optional<double> number(std::string_view text) {
     return value;
 }
 
-class Parser {
+class PointsParser {
   public:
-    explicit Parser(const std::filesystem::path& name) : name_(name.string()) {}
+    explicit PointsParser(const std::filesystem::path& name) : name_(name.string()) {}
 
     void add(std::string_view line, std::size_t line_number) {
         line_ = line_number;
@@ -117,7 +117,7 @@ class Parser {
 
 PointsFile parse_points(std::string_view text, const std::filesystem::path& name) {
     if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
-    Parser parser(name);
+    PointsParser parser(name);
     for (std::size_t line = 1; !text.empty(); ++line) {
         const auto end = std::min(text.find('\n'), text.size());
         parser.add(text.substr(0, end), line);

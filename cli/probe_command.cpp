@@ -27,7 +27,9 @@ struct Table {
     std::vector<std::vector<double>> rows;
 };
 
-std::vector<std::string> columns_of(const PointsFile& points, std::size_t bands) {
+std::vector<std::string> columns_of(const PointsFile& points,
+                                    const radiosity::Enclosure& enclosure) {
+    const std::size_t bands = enclosure.bands;
     std::vector<std::string> columns{"x", "y", "z"};
     if (points.has_normals) columns.insert(columns.end(), {"nx", "ny", "nz"});
     const std::vector<std::string> quantities =
@@ -36,11 +38,12 @@ std::vector<std::string> columns_of(const PointsFile& points, std::size_t bands)
     for (const auto& quantity : quantities)
         for (std::size_t b = 0; b < bands; ++b)
             columns.push_back(bands == 1 ? quantity : fmt::format("{}_{}", quantity, b));
+    if (enclosure.thermal) columns.push_back("T");
     return columns;
 }
 
 std::vector<double> values_at(const radiosity::Probe& probe, const PointsFile::Row& point,
-                              bool has_normal) {
+                              bool has_normal, bool thermal) {
     std::vector<double> row{point.x.x, point.x.y, point.x.z};
     const auto add = [&](const radiosity::Spectrum& spectrum) {
         row.insert(row.end(), spectrum.begin(), spectrum.end());
@@ -50,12 +53,14 @@ std::vector<double> values_at(const radiosity::Probe& probe, const PointsFile::R
         const auto values = probe.on_surface(point.x, point.normal);
         add(values.irradiance);
         add(values.irradiance_direct);
+        if (thermal) row.push_back(values.temperature);
     } else {
         const auto values = probe.in_space(point.x);
         add(values.source);
         add(values.source_direct);
         add(values.incident);
         add(values.incident_direct);
+        if (thermal) row.push_back(values.temperature);
     }
     return row;
 }
@@ -65,14 +70,15 @@ Table probe_all(const radiosity::Solution& solution, const PointsFile& points,
     const radiosity::Probe probe(solution, {options.rays, flags.seed.value_or(1)});
     ProgressLine progress(flags);
     const auto callback = progress.callback();
-    Table table{columns_of(points, solution.enclosure->bands), {}};
+    Table table{columns_of(points, *solution.enclosure), {}};
     table.rows.resize(points.rows.size());
     std::vector<std::string> errors(points.rows.size());
     std::atomic<std::size_t> done = 0;
     tbb::parallel_for(std::size_t(0), points.rows.size(), [&](std::size_t k) {
         if (progress.stopped()) return;
         try {
-            table.rows[k] = values_at(probe, points.rows[k], points.has_normals);
+            table.rows[k] =
+                values_at(probe, points.rows[k], points.has_normals, solution.enclosure->thermal);
         } catch (const mesh::InputError& error) {
             errors[k] = error.what();
         }
@@ -124,7 +130,8 @@ void add_probe_command(Shell& shell) {
     command.option("OUT", options->solution, "Folder of a run, or a solution file").required();
     command
         .option("--points", options->points,
-                "CSV with x,y,z (J and G) or x,y,z,nx,ny,nz (irradiance)")
+                "CSV with x,y,z (J and G) or x,y,z,nx,ny,nz (irradiance); T where there are "
+                "temperatures")
         .required();
     command.option("-o,--output", options->out, "CSV to write; else standard output");
     command.option("--rays", options->rays, "Gathered along at each point; 4096 if not given")

@@ -11,7 +11,7 @@
 namespace tyndall::cli {
 namespace {
 
-std::vector<std::string> fields_of(std::string_view line) {
+std::vector<std::string> cells_of(std::string_view line) {
     std::vector<std::string> fields{""};
     for (const char c : line) {
         if (c == ',')
@@ -22,13 +22,13 @@ std::vector<std::string> fields_of(std::string_view line) {
     return fields;
 }
 
-class Parser {
+class ProbeValuesParser {
   public:
-    explicit Parser(const std::filesystem::path& name) : name_(name.string()) {}
+    explicit ProbeValuesParser(const std::filesystem::path& name) : name_(name.string()) {}
 
     void add(std::string_view line, std::size_t number) {
         line_ = number;
-        const auto fields = fields_of(line);
+        const auto fields = cells_of(line);
         if ((fields.size() == 1 && fields[0].empty()) || fields[0].starts_with('#')) return;
         if (names_.empty())
             take_names(fields);
@@ -102,7 +102,7 @@ class Parser {
 
 ProbeValuesFile parse_probe_values(std::string_view text, const std::filesystem::path& name) {
     if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
-    Parser parser(name);
+    ProbeValuesParser parser(name);
     for (std::size_t line = 1; !text.empty(); ++line) {
         const auto end = std::min(text.find('\n'), text.size());
         parser.add(text.substr(0, end), line);

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "cli/overrides.h"
+#include "cli/scene_cameras.h"
 #include "cli/scene_keys.h"
 #include "cli/scene_optics.h"
 #include "cli/scene_spectrum.h"
@@ -30,43 +31,6 @@ void check_format(const TableReader& root) {
                                         "format = 1.",
                                         format));
     }
-}
-
-void read_field_of_view(const TableReader& reader, render::Camera& camera) {
-    constexpr Range range{0.0, 180.0, true, true};
-    constexpr std::array<std::string_view, 2> angles{"fov_x", "fov_y"};
-    const std::string_view which = reader.exactly_one(angles);
-    const double radians = reader.number(which, range) * std::numbers::pi / 180.0;
-    (which == "fov_x" ? camera.fov_x : camera.fov_y) = radians;
-}
-
-render::Camera read_camera(const TableReader& reader, const std::string& name) {
-    render::Camera camera;
-    camera.name = name;
-    camera.eye = reader.vector("eye", coordinate);
-    camera.target = reader.vector("target", coordinate);
-    const glm::dvec3 view = camera.target - camera.eye;
-    if (!(glm::length(view) > 0.0)) {
-        reader.fail("target",
-                    fmt::format("target of {} is its eye. Move one of them.", reader.thing()));
-    }
-    if (reader.has("up")) camera.up = read_direction(reader, "up");
-    if (!(glm::length(glm::cross(glm::normalize(view), camera.up)) > 1e-9)) {
-        reader.fail("up",
-                    fmt::format("up of {} is parallel to its view. Give another up, such as {}.",
-                                reader.thing(),
-                                std::abs(view.y) < std::abs(view.z) ? "[0, 1, 0]" : "[0, 0, 1]"));
-    }
-    read_field_of_view(reader, camera);
-    constexpr std::size_t longest = 65536, most = std::size_t(1) << 28;
-    if (reader.has("width")) camera.width = reader.count("width", 1, longest);
-    if (reader.has("height")) camera.height = reader.count("height", 1, longest);
-    if (camera.width * camera.height > most) {
-        reader.fail("width",
-                    fmt::format("{} has {} × {} pixels, more than {}. Make the picture smaller.",
-                                reader.thing(), camera.width, camera.height, most));
-    }
-    return camera;
 }
 
 void read_cameras(const TableReader& root, Names& names, SceneFile& file) {
@@ -244,12 +208,14 @@ ViewSettings read_view_settings(const std::string& toml,
 std::string scene_file_reference() {
     std::string text;
     for (const KeyTable* table :
-         {&keys::root(),      &keys::material(),     &keys::surface(),        &keys::cuboid(),
-          &keys::rectangle(), &keys::face_opening(), &keys::opening(),        &keys::rotate(),
-          &keys::medium(),    &keys::extinction(),   &keys::phase(),          &keys::light(),
-          &keys::sun(),       &keys::point(),        &keys::spot(),           &keys::environment(),
-          &keys::camera(),    &solve_keys(),         &render_keys(),          &keys::grey_gases(),
-          &keys::grey_gas(),  &keys::animation(),    &keys::animation_track()}) {
+         {&keys::root(),       &keys::material(),    &keys::surface(),
+          &keys::cuboid(),     &keys::rectangle(),   &keys::face_opening(),
+          &keys::opening(),    &keys::rotate(),      &keys::medium(),
+          &keys::extinction(), &keys::phase(),       &keys::lens(),
+          &keys::light(),      &keys::sun(),         &keys::point(),
+          &keys::spot(),       &keys::environment(), &keys::camera(),
+          &solve_keys(),       &render_keys(),       &keys::grey_gases(),
+          &keys::grey_gas(),   &keys::animation(),   &keys::animation_track()}) {
         text += fmt::format("### {}\n\n| key | value | default | meaning |\n|---|---|---|---|\n",
                             table->title);
         for (const Key& key : table->keys) {

@@ -21,7 +21,7 @@ const KeyTable& root() {
             {"medium", "array of tables", "", "fog, smoke, haze"},
             {"light", "array of tables", "", "sun, point and spot lights"},
             {"environment", "table", "", "what comes in from outside"},
-            {"camera", "array of tables", "", "pinhole cameras"},
+            {"camera", "array of tables", "", "cameras"},
             {"solve", "table", "", "how the light is computed"},
             {"render", "table", "", "how the picture is made"},
             {"animation", "table", "", "keys that change in time, for tyndall animate"},
@@ -35,6 +35,9 @@ const KeyTable& material() {
         {
             {"name", "string", "required", "how surfaces speak of it"},
             {"reflectance", "number from 0 to 1, or one a band", "required", "Lambertian"},
+            {"specular", "number from 0 to 1, or one a band", "0",
+             "reflected about the mirror direction, beside reflectance: both add up to 1 at most"},
+            {"roughness", "number from 0 to 1", "0", "of the specular part; 0: a mirror"},
             {"emission", "number [W/m²/sr], or one a band", "", "radiance"},
             {"exitance", "number [W/m²], or one a band", "", "π × radiance"},
             {"power", "number [W], or one a band", "", "of the whole surface"},
@@ -198,7 +201,8 @@ const KeyTable& extinction() {
 const KeyTable& phase() {
     static const KeyTable table{
         "phase",
-        {{"henyey_greenstein", "number above -1 and below 1", "required", "mean cosine g"}}};
+        {{"henyey_greenstein", "number above -1 and below 1", "", "mean cosine g; or rayleigh"},
+         {"rayleigh", "true", "", "particles much smaller than the wavelength"}}};
     return table;
 }
 
@@ -263,12 +267,26 @@ const KeyTable& camera() {
             {"eye", "[x, y, z] [m]", "required", ""},
             {"target", "[x, y, z] [m]", "required", "shown in the picture's centre"},
             {"up", "[x, y, z]", "[0, 0, 1]", "not along the view"},
+            {"projection", "\"perspective\", \"orthographic\" or \"panorama\"", "perspective",
+             "panorama: all around, longitude across and latitude upright"},
             {"fov_x", "number above 0 and below 180 [degrees]", "", "whole angle across; or fov_y"},
             {"fov_y", "number above 0 and below 180 [degrees]", "",
              "whole angle upright; or fov_x"},
+            {"extent_x", "number above 0 [m]", "",
+             "whole length across, of orthographic pictures; or extent_y"},
+            {"extent_y", "number above 0 [m]", "", "whole length upright; or extent_x"},
+            {"lens", "table", "a pinhole", "what is out of focus is blurred"},
             {"width", "whole number, 1 to 65536 [pixel]", "640", ""},
-            {"height", "whole number, 1 to 65536 [pixel]", "480", ""},
+            {"height", "whole number, 1 to 65536 [pixel]", "480, of a panorama width/2", ""},
         }};
+    return table;
+}
+
+const KeyTable& lens() {
+    static const KeyTable table{"camera.lens",
+                                {{"diameter", "number above 0 [m]", "required", ""},
+                                 {"focus", "number above 0 [m]", "required",
+                                  "distance of the sharp plane from the eye, along the view"}}};
     return table;
 }
 

@@ -23,6 +23,7 @@ const KeyTable& point();
 const KeyTable& spot();
 const KeyTable& environment();
 const KeyTable& camera();
+const KeyTable& lens();
 const KeyTable& grey_gases();  // the file that grey_gases names
 const KeyTable& grey_gas();
 const KeyTable& animation();

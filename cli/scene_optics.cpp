@@ -64,6 +64,12 @@ Spectrum read_total(const TableReader& reader, std::string_view key, const Range
     return {reader.number(key, range)};
 }
 
+// 1 − ρ of all reflection, which is the emissivity.
+double absorbed(const radiosity::Material& material, std::size_t band) {
+    const double specular = material.specular.empty() ? 0.0 : material.specular[band];
+    return std::max(0.0, 1.0 - material.reflectance[band] - specular);
+}
+
 void read_emission(const TableReader& reader, const Heat& heat, radiosity::Material& material) {
     const std::size_t bands = heat.scene.bands;
     constexpr std::array<std::string_view, 5> sources{"emission", "exitance", "power",
@@ -78,8 +84,7 @@ void read_emission(const TableReader& reader, const Heat& heat, radiosity::Mater
         material.power = reader.spectrum("power", bands, quantity);
     } else if (source == "temperature") {
         material.emission = black_radiance(reader, heat);
-        for (std::size_t b = 0; b < bands; ++b)
-            material.emission[b] *= 1.0 - material.reflectance[b];
+        for (std::size_t b = 0; b < bands; ++b) material.emission[b] *= absorbed(material, b);
         material.emits = radiosity::EmittingSides::both;
     } else if (source == "flux") {
         material.flux = read_total(reader, "flux", signed_quantity, heat.scene);
@@ -108,10 +113,42 @@ void check_back(const TableReader& reader, const std::vector<radiosity::Material
     }
 }
 
-std::optional<double> read_phase(const TableReader& reader) {
-    if (!reader.has("phase")) return std::nullopt;
-    return reader.table("phase", keys::phase())
-        .number("henyey_greenstein", {-1.0, 1.0, true, true});
+void read_phase(const TableReader& reader, radiosity::Medium& medium) {
+    if (!reader.has("phase")) return;
+    const TableReader phase = reader.table("phase", keys::phase());
+    constexpr std::array<std::string_view, 2> kinds{"henyey_greenstein", "rayleigh"};
+    if (phase.exactly_one(kinds) == "henyey_greenstein") {
+        medium.asymmetry = phase.number("henyey_greenstein", {-1.0, 1.0, true, true});
+        return;
+    }
+    if (!phase.flag("rayleigh"))
+        phase.fail("rayleigh", fmt::format("rayleigh of {} is false. Say true, or leave phase away "
+                                           "for isotropic scattering.",
+                                           phase.thing()));
+    medium.phase = radiosity::PhaseKind::rayleigh;
+}
+
+// The part that goes about the mirror direction.
+void read_specular(const TableReader& reader, std::size_t bands, radiosity::Material& material) {
+    if (!reader.has("specular")) {
+        if (reader.has("roughness"))
+            reader.fail("roughness", fmt::format("roughness of {} is that of its specular part, "
+                                                 "which it has none of. Give specular as well.",
+                                                 reader.thing()));
+        return;
+    }
+    material.specular = reader.spectrum("specular", bands, fraction);
+    material.roughness = reader.number("roughness", fraction, 0.0);
+    for (std::size_t b = 0; b < bands; ++b)
+        if (material.reflectance[b] + material.specular[b] > 1.0 + 1e-12)
+            reader.fail("specular",
+                        fmt::format("specular {} and reflectance {} of {} reflect more light than "
+                                    "falls on it. Let them add up to 1 at most.",
+                                    material.specular[b], material.reflectance[b], reader.thing()));
+    if (reader.has("flux"))
+        reader.fail("specular", fmt::format("specular of {} has no meaning beside flux, which "
+                                            "gives back all light, evenly. Give one of the two.",
+                                            reader.thing()));
 }
 
 // Absorption of the gases beside that of what extinction speaks of: soot, droplets.
@@ -230,6 +267,7 @@ void read_materials(const TableReader& root, Names& names, radiosity::Scene& sce
                 fmt::format("reflectance of {} is to hold for all wavelengths, as the bands "
                             "are grey gases, which mix them. Give one number.",
                             reader.thing()));
+        read_specular(reader, scene.bands, material);
         read_emission(reader, {scene, notes}, material);
         scene.materials.push_back(std::move(material));
         readers.push_back(reader);
@@ -256,7 +294,7 @@ void read_media(const TableReader& root, const std::filesystem::path& folder,
             medium.extinction.assign(scene.bands, 0.0);
         medium.albedo = reader.has("albedo") ? reader.spectrum("albedo", scene.bands, fraction)
                                              : Spectrum(scene.bands, 0.0);
-        medium.asymmetry = read_phase(reader).value_or(0.0);
+        read_phase(reader, medium);
         add_gases(reader, scene, medium);
         read_medium_source(reader, {scene, notes}, medium);
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double micrometre = 1e-6;  // [m]
 constexpr Range wavelengths{0.0, 1e9};
-constexpr Range kelvin{1.0, 1e6};
+constexpr Range kelvin_of_spectrum{1.0, 1e6};
 
 std::vector<double> read_band_edges(const TableReader& root) {
     std::vector<double> edges;
@@ -86,7 +86,7 @@ radiosity::GreyGases read_grey_gases(const std::filesystem::path& path) {
         root.fail("format", "this program reads format = 1 of files of grey gases.");
     radiosity::GreyGases model;
     model.name = path.filename().string();
-    const glm::dvec2 temperatures = root.vector2("temperatures", kelvin);
+    const glm::dvec2 temperatures = root.vector2("temperatures", kelvin_of_spectrum);
     if (!(temperatures.x < temperatures.y))
         root.fail("temperatures",
                   fmt::format("temperatures [{}, {}] do not ascend. Give the lowest "

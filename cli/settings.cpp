@@ -10,6 +10,8 @@
 #include "radiosity/indicators.h"
 #include "radiosity/smoothing.h"
 #include "radiosity/solvers.h"
+#include "render/renderers.h"
+#include "render/tone_map.h"
 
 namespace tyndall::cli {
 namespace {
@@ -22,7 +24,6 @@ constexpr std::array<std::string_view, 5> refinement_names{"none", "uniform", "a
 constexpr std::array<std::string_view, 4> start_names{"single-zone", "base", "uniform", "mesh"};
 constexpr std::array<std::string_view, 2> radiance_names{"constant", "linear"};
 constexpr std::array<std::string_view, 2> direct_light_names{"closed_form", "rows"};
-constexpr std::array<std::string_view, 1> render_method_names{"line_of_sight"};
 
 std::vector<std::string_view> exchange_names() {
     std::vector<std::string_view> names;
@@ -138,13 +139,21 @@ constexpr Setting solve_settings[] = {
 
 constexpr Setting render_settings[] = {
     {{"method", "name of a method", "\"line_of_sight\"", "how the picture is made from the solution"},
-     [](T t, K k, Settings& s) { s.render.method = render_method_names[t.choice(k, render_method_names)]; }},
+     [](T t, K k, Settings& s) { const auto names = render::renderer_names(); s.render.method = names[t.choice(k, names)]; }},
     {{"samples", "whole number", "16", "rays a pixel"},
      [](T t, K k, Settings& s) { s.render.samples = t.count(k, 1, 65536); }},
+    {{"error", "number from 0", "0", "two_pass, path_traced: go on until the picture's estimated error in blocks of 4 x 4 pixels, over its mean, is below this, whatever samples says; 0: no goal"},
+     [](T t, K k, Settings& s) { s.render.error = t.number(k, {0.0, 1e9}); }},
+    {{"time", "number [s]", "0", "two_pass, path_traced: or until so much wall time is spent; 0: no limit"},
+     [](T t, K k, Settings& s) { s.render.time = t.number(k, {0.0, 1e9}); }},
+    {{"scatterings", "whole number", "0", "two_pass: scatterings by chance, the last of which takes the solution's light; 0: 1, or 3 where a medium does not scatter evenly"},
+     [](T t, K k, Settings& s) { s.render.scatterings = t.count(k, 0, 1000); }},
     {{"seed", "whole number", "solve.seed", "of the places in a pixel that rays go through"},
      [](T t, K k, Settings& s) { s.render.seed = t.count(k, 0, 1ull << 53); }},
     {{"exposure", "number [stops]", "0", "added to the automatic exposure of the PNG"},
      [](T t, K k, Settings& s) { s.tone_map.exposure = t.number(k, {-100.0, 100.0}); }},
+    {{"tone", "\"shoulder\", \"filmic\", \"reinhard\" or \"linear\"", "\"shoulder\"", "curve from radiance to the light of the PNG"},
+     [](T t, K k, Settings& s) { s.tone_map.curve = static_cast<render::ToneCurve>(t.choice(k, render::tone_curve_names())); }},
     {{"white", "number [W/m²/sr]", "automatic", "radiance shown as white in the PNG"},
      [](T t, K k, Settings& s) { s.tone_map.white = t.number(k, positive); }},
 };

@@ -90,7 +90,7 @@ class Session {
                      std::move(label),
                      flags_.threads,
                      {}};
-        if (study_.slice) job.slice = Plane{study_.slice->point, study_.slice->normal};
+        if (study_.slice) job.slice = render::Plane{study_.slice->point, study_.slice->normal};
         return job;
     }
 

@@ -88,9 +88,10 @@ void draw_passes(const StudyJob& job, const fs::path& folder) {
         if (entry.path().extension() != ".vtkhdf") continue;
         try {
             const auto solved = radiosity::read_solution(entry.path()).solution;
-            const Plane plane = job.slice.value_or(default_plane(*solved.enclosure));
+            const render::Plane plane =
+                job.slice.value_or(render::default_plane(*solved.enclosure));
             render::write_image(fs::path(entry.path()).replace_extension(".png"),
-                                mesh_slice(solved, plane));
+                                render::field_slice(solved, plane).image);
         } catch (const mesh::InputError&) {
             continue;  // a mesh without its light has nothing to be coloured by
         }
@@ -106,13 +107,15 @@ void look_at_mesh(const StudyJob& job, const SceneFile& file, const fs::path& fo
     record.figures.tet_quality_mean = quality.tet_mean;
     record.figures.triangle_quality_min = quality.triangle_min;
     record.figures.triangle_quality_mean = quality.triangle_mean;
-    const Plane plane = job.slice.value_or(default_plane(*solved.solution.enclosure));
-    render::write_image(folder / "slice.png", mesh_slice(solved.solution, plane));
+    const render::Plane plane =
+        job.slice.value_or(render::default_plane(*solved.solution.enclosure));
+    render::write_image(folder / "slice.png", render::field_slice(solved.solution, plane).image);
     if (fs::exists(folder / "image.exr")) {
         const auto picture =
             render::tone_map(render::read_image(folder / "image.exr"), file.tone_map);
         const auto& camera = find_camera(file.cameras, file.view_camera);
-        render::write_image(folder / "overlay.png", mesh_overlay(solved.solution, camera, picture));
+        render::write_image(folder / "overlay.png",
+                            render::mesh_overlay(solved.solution, camera, picture));
     }
     draw_passes(job, folder);
     record.drawn = drawing_text(job);

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "cli/mesh_pictures.h"
 #include "cli/progress.h"
 #include "cli/scene_file.h"
 #include "cli/study_record.h"
+#include "render/mesh_pictures.h"
 
 namespace tyndall::cli {
 
@@ -20,7 +20,7 @@ struct StudyJob {
     std::filesystem::path folder;        // of the run
     std::string label;                   // for progress
     std::size_t threads = 0;             // 0: all
-    std::optional<Plane> slice;          // none: default_plane
+    std::optional<render::Plane> slice;  // none: render::default_plane
 };
 
 // Purpose: tells runs apart: by the program's version, the scene with its overrides, and the files

@@ -18,4 +18,8 @@ Entry entry_of(const BaseMesh& mesh, const Ray& ray, TetId at_origin) {
     return {locate(mesh, ray.origin + inside * ray.direction), inside};
 }
 
+Entry entry_near(const BaseMesh& mesh, const Ray& ray, Point x, TetId at_x) {
+    return entry_of(mesh, ray, ray.origin == x ? at_x : locate(mesh, ray.origin, at_x));
+}
+
 }  // namespace tyndall::mesh

@@ -14,4 +14,7 @@ struct Entry {
 // where the ray meets the hull. Cost: that of `locate` from outside.
 Entry entry_of(const BaseMesh& mesh, const Ray& ray, TetId at_origin);
 
+// The same for a ray that begins near x, whose tet `at_x` is known (invalid: outside the hull).
+Entry entry_near(const BaseMesh& mesh, const Ray& ray, Point x, TetId at_x);
+
 }  // namespace tyndall::mesh

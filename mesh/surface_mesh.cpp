@@ -23,7 +23,7 @@ OpenMesh::Vec3d to_openmesh(Point p) {
 }
 
 // One manifold piece and its vertices by forest id.
-struct Piece {
+struct ManifoldPiece {
     TriMesh mesh;
     std::map<std::uint32_t, OpenMesh::VertexHandle> vertices;
 
@@ -78,20 +78,20 @@ struct Place {
 }  // namespace
 
 struct SurfaceMeshes::Meshes {
-    std::vector<std::unique_ptr<Piece>> pieces;
+    std::vector<std::unique_ptr<ManifoldPiece>> pieces;
     std::vector<Place> places;  // of each patch node that is a leaf
 
     void insert(const Forest& forest, PatchId id, std::uint32_t& first, std::uint32_t& last);
     // `t`: from the edge's lower vertex to its higher one.
-    void split(Forest& forest, Piece& piece, std::uint32_t index, OpenMesh::HalfedgeHandle edge,
-               double t, std::vector<PatchId>* made);
+    void split(Forest& forest, ManifoldPiece& piece, std::uint32_t index,
+               OpenMesh::HalfedgeHandle edge, double t, std::vector<PatchId>* made);
 };
 
 // Tries the group's pieces in turn, opens a new one when none accepts.
 void SurfaceMeshes::Meshes::insert(const Forest& forest, PatchId id, std::uint32_t& first,
                                    std::uint32_t& last) {
     for (std::uint32_t k = first; k <= last; ++k) {
-        if (k == pieces.size()) pieces.push_back(std::make_unique<Piece>());
+        if (k == pieces.size()) pieces.push_back(std::make_unique<ManifoldPiece>());
         if (!pieces[k]->accepts(forest, forest[id])) {
             if (k == last) last = static_cast<std::uint32_t>(pieces.size());
             continue;
@@ -119,7 +119,7 @@ SurfaceMeshes::SurfaceMeshes(const Forest& forest, std::span<const std::uint32_t
 SurfaceMeshes::~SurfaceMeshes() = default;
 
 // Splits an edge and the one or two triangles on it, in the OpenMesh and in the forest alike.
-void SurfaceMeshes::Meshes::split(Forest& forest, Piece& piece, std::uint32_t index,
+void SurfaceMeshes::Meshes::split(Forest& forest, ManifoldPiece& piece, std::uint32_t index,
                                   OpenMesh::HalfedgeHandle edge, double t,
                                   std::vector<PatchId>* made) {
     TriMesh& mesh = piece.mesh;
@@ -169,7 +169,7 @@ void SurfaceMeshes::refine(Forest& forest, PatchId patch, std::vector<PatchId>* 
     while (forest.is_leaf(patch)) {
         const Place place = meshes_->places[patch.value];
         if (place.piece == no_group) return;
-        Piece& piece = *meshes_->pieces[place.piece];
+        ManifoldPiece& piece = *meshes_->pieces[place.piece];
         const auto [i, j] = forest.longest_edge(patch);
         const auto& corners = forest[patch].corners;
         const VertexId a = corners[i], b = corners[j];
@@ -194,7 +194,7 @@ void SurfaceMeshes::split(Forest& forest, PatchId patch, int i, int j, double t,
                           std::vector<PatchId>* made) {
     const Place place = meshes_->places[patch.value];
     if (place.piece == no_group) return;
-    Piece& piece = *meshes_->pieces[place.piece];
+    ManifoldPiece& piece = *meshes_->pieces[place.piece];
     const VertexId a = forest[patch].corners[i], b = forest[patch].corners[j];
     t = Forest::place(t);
     meshes_->split(forest, piece, place.piece, piece.edge_of(place.face, a, b), a < b ? t : 1.0 - t,

@@ -1,25 +1,21 @@
 #include "radiosity/adaptive.h"
 
-#include <fmt/format.h>
 #include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "mesh/entry.h"
-#include "mesh/input_error.h"
 #include "radiosity/balance.h"
 #include "radiosity/error_estimate.h"
-#include "radiosity/exchange_methods.h"
 #include "radiosity/incident_lit.h"
 #include "radiosity/leaf_light.h"
 #include "radiosity/resources.h"
-#include "radiosity/smoothing.h"
+#include "radiosity/solve_checks.h"
 #include "radiosity/solve_report.h"
-#include "radiosity/solvers.h"
 #include "radiosity/start_elements.h"
 #include "radiosity/temperatures.h"
 #include "radiosity/thick_zones.h"
+#include "radiosity/view_radiance.h"
 
 namespace tyndall::radiosity {
 namespace {
@@ -45,15 +41,6 @@ std::optional<ShadowBoundaries> shadow_boundaries(const Enclosure& enclosure,
     if (options.refinement != Refinement::aligned || !asks_for(options, "shadow_boundary"))
         return {};
     return ShadowBoundaries(enclosure, options.direct_light == DirectLightMode::closed_form);
-}
-
-void check_base(const Enclosure& enclosure, const mesh::BaseMesh& kept) {
-    if (enclosure.mesh == kept) return;
-    throw mesh::InputError(fmt::format(
-        "the mesh to go on with has another base mesh ({} tetrahedra; here {}, or other corners): "
-        "the geometry has changed, or a file that the scene names. Give the same scene and files, "
-        "or begin anew.",
-        kept.tets.size(), enclosure.mesh.tets.size()));
 }
 
 // The loop's state, step by step; each step leaves something that a valid solution can be made of.
@@ -328,31 +315,15 @@ bool Loop::refine_thick_zones(const Elements& elements) {
 // Direct light of the leaves summed into the coarse elements above them, then the linear system.
 // With `lit`, what patches reflect of it is not left to the rows.
 void Loop::solve(CoarseSolution& coarse, const LitPatches* lit) {
-    const std::size_t bands = enclosure_->bands;
     const Elements& e = coarse.elements();
-    incident_direct_.assign(e.size() * bands, 0.0);
-    std::vector<double> measure(e.size() * bands, 0.0);
-    const auto add = [&](auto node, std::uint32_t element) {
-        for (std::size_t b = 0; b < bands; ++b) {
-            const WeighedMean one = leaf_light_.weighed_direct(node, b);
-            measure[element * bands + b] += one.measure;
-            incident_direct_[element * bands + b] += one.measure * one.mean;
-        }
-    };
-    const Forest& forest = mesh_.forest();
-    for (const ZoneId z : mesh_.zones())
-        if (forest.is_leaf(z)) add(z, leaf_light_.element_above(z, e.of_zone));
-    for (const PatchId p : mesh_.patches())
-        if (forest.is_leaf(p)) add(p, leaf_light_.element_above(p, e.of_patch));
-    for (std::size_t k = 0; k < measure.size(); ++k)
-        if (measure[k] > 0.0) incident_direct_[k] /= measure[k];
+    incident_direct_ = leaf_light_.means_of_direct(e);
     if (escaped_direct_.empty())
         escaped_direct_ = escaped_direct(*enclosure_, coarse, 16384, options_.seed);
     direct_power_check_ =
         conserve_direct_power(*enclosure_, e, light_, escaped_direct_, incident_direct_);
     const std::size_t rays = coarse.rays();
     if (lit) {
-        incident_lit_ = incident_lit(*enclosure_, forest, e, *lit);
+        incident_lit_ = incident_lit(*enclosure_, mesh_.forest(), e, *lit);
         coarse.solve(incident_direct_, incident_lit_);
     } else {
         coarse.solve(incident_direct_);
@@ -362,37 +333,11 @@ void Loop::solve(CoarseSolution& coarse, const LitPatches* lit) {
 
 // The picture's mean radiance and the solution's mean square, against which errors are measured.
 void Loop::rate(const CoarseSolution& coarse) {
-    const Elements& e = coarse.elements();
-    double square = 0.0, capacity = 0.0;
-    for (std::size_t i = 0; i < e.size(); ++i)
-        for (std::size_t b = 0; b < e.bands; ++b) {
-            const std::size_t k = i * e.bands + b;
-            const double x = coarse.reflected(i, b);
-            square += e.capacity[k] * x * x;
-            capacity += e.capacity[k];
-        }
-    scale_.solution = capacity > 0.0 ? square / capacity : 0.0;
+    scale_.solution = coarse.mean_square();
     if (!view_) return;
-    const TetId eye = mesh::locate(enclosure_->mesh, view_->eye);
-    const Fields sources = leaf_light_.sources(coarse);
-    const GatherScene scene(*enclosure_, mesh_.forest(), sources);
-    constexpr int across = 32, down = 24;
-    Spectrum radiance(e.bands);
-    double sum = 0.0;
-    for (int y = 0; y < down; ++y)
-        for (int x = 0; x < across; ++x) {
-            const double s = (2.0 * (x + 0.5) / across - 1.0) * view_->tan_half_x;
-            const double t = (1.0 - 2.0 * (y + 0.5) / down) * view_->tan_half_y;
-            mesh::Ray ray{view_->eye,
-                          glm::normalize(view_->forward + s * view_->right + t * view_->up)};
-            const mesh::Entry entry = mesh::entry_of(enclosure_->mesh, ray, eye);
-            if (!entry.tet.valid() || enclosure_->solid(entry.tet)) continue;
-            ray.origin += entry.distance * ray.direction;
-            radiance_along(scene, ray, {entry.tet}, radiance);
-            sum += mean_over_bands(radiance);
-        }
-    scale_.picture = sum / (across * down);
-    if (!(sum > 0.0)) view_.reset();  // it sees nothing
+    scale_.picture = mean_radiance(
+        GatherScene(*enclosure_, mesh_.forest(), leaf_light_.sources(coarse)), *enclosure_, *view_);
+    if (!(scale_.picture > 0.0)) view_.reset();  // it sees nothing
 }
 
 // The leaves' fields, given indirect light. Their errors are those of direct light alone.
@@ -439,17 +384,7 @@ Solution Loop::collect(const CoarseSolution& coarse, Field&& indirect) {
 Solution solve_adaptively(std::shared_ptr<const Enclosure> enclosure, const SolveOptions& options,
                           const std::optional<View>& view, const ProgressCallback& progress,
                           const Passes& passes) {
-    if (!exchange_method(options.exchange).detail && options.row_detail > 0.0)
-        throw mesh::InputError(
-            fmt::format("level of detail in rows (row_detail) is made by walking, not by \"{}\". "
-                        "Set row_detail to 0, or exchange to \"walked\".",
-                        options.exchange));
-    check_smoothing(options.exchange_settings.smoothing, options.row_detail);
-    require_settings(exchange_method(options.exchange), options.exchange_settings);
-    check_solver(options);
-    require_media(exchange_method(options.exchange), *enclosure);
-    check_indicators(options);
-    if (passes.begin_with) check_base(*enclosure, passes.begin_with->base);
+    check_solve(*enclosure, options, passes);
     std::optional<tbb::global_control> threads;
     if (options.threads > 0)
         threads.emplace(tbb::global_control::max_allowed_parallelism, options.threads);

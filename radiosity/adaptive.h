@@ -9,6 +9,7 @@
 #include "radiosity/kept_light.h"
 #include "radiosity/progress.h"
 #include "radiosity/solution.h"
+#include "radiosity/view.h"
 
 namespace tyndall::radiosity {
 

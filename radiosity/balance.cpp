@@ -14,7 +14,7 @@
 namespace tyndall::radiosity {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // Follows direct light from its sources to what leaves the hull.
 class Escape {

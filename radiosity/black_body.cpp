@@ -8,7 +8,7 @@
 namespace tyndall::radiosity {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 double grey_temperature(double radiance) {
     return std::pow(pi * radiance / stefan_boltzmann, 0.25);

@@ -45,33 +45,51 @@ CoarseSolution::CoarseSolution(const Enclosure& enclosure, const Forest& forest,
     check_solver(options);
     check_solver_size(solver_named(options.solver), elements_.size());
     if (on_the_fly()) at_first_ = forest;
+    std::vector<std::size_t> distinct;  // bands that have rows of their own
     for (std::size_t band = 0; band < enclosure.bands; ++band) {
         const std::size_t same = first_of_extinction(enclosure, band);
-        if (same < band) {
-            matrix_.push_back(matrix_[same]);
-            continue;
+        matrix_.push_back(same < band ? matrix_[same] : distinct.size());
+        if (same == band) distinct.push_back(band);
+    }
+    if (on_the_fly()) {
+        areas_.resize(distinct.size());
+        closure_.resize(distinct.size(), 0.0);
+        for (const std::size_t band : distinct) find_outside(band);
+    } else {
+        make_areas(distinct, kept);
+    }
+}
+
+// Of bands with extinctions that differ; by one walk for all, where the method can.
+void CoarseSolution::make_areas(std::span<const std::size_t> bands, const KeptRows* kept) {
+    const NamedExchangeMethod& method = exchange_method(options_.exchange);
+    const Discretization d{enclosure_, forest_, elements_};
+    ExchangeOptions chosen = exchange_options(bands.front());
+    chosen.detail = options_.row_detail;
+    chosen.radiance = method.moments ? options_.radiance : Radiance::constant;
+    chosen.progress = progress_;
+    if (kept) {
+        std::atomic<std::size_t> walked = 0;
+        for (const std::size_t band : bands) {
+            chosen.band = band;
+            areas_.push_back(
+                moved_rows(d, {kept->discretization, kept->areas[areas_.size()]}, chosen, walked));
         }
-        matrix_.push_back(areas_.size());
-        if (on_the_fly()) {
-            areas_.emplace_back();
-            closure_.push_back(0.0);
-            find_outside(band);
-            continue;
+        rays_ += walked;
+    } else if (method.of_bands && bands.size() > 1) {
+        areas_ = all_rows(method.of_bands, d, chosen, bands);
+        rays_ += elements_.size() * options_.rays;
+    } else {
+        for (const std::size_t band : bands) {
+            chosen.band = band;
+            areas_.push_back(all_rows(method.method, d, chosen));
+            rays_ += elements_.size() * options_.rays;
         }
-        ExchangeOptions chosen = exchange_options(band);
-        chosen.detail = options.row_detail;
-        chosen.radiance = method.moments ? options.radiance : Radiance::constant;
-        chosen.progress = progress;
-        const Discretization now{enclosure, forest, elements_};
-        if (kept) {
-            std::atomic<std::size_t> walked = 0;
-            areas_.push_back(moved_rows(now, {kept->discretization, kept->areas[areas_.size()]},
-                                        chosen, walked));
-            rays_ += walked;
-            continue;
-        }
-        areas_.push_back(all_rows(method.method, now, chosen));
-        rays_ += elements_.size() * options.rays;
+    }
+    for (const ExchangeAreas& areas : areas_) {
+        auto& outside = outside_.emplace_back();
+        for (std::size_t i = 0; i < elements_.size(); ++i)
+            outside.push_back(radiosity::to_outside(areas, elements_, i));
     }
 }
 
@@ -115,7 +133,6 @@ void CoarseSolution::find_outside(std::size_t band) {
 }
 
 double CoarseSolution::to_outside(std::size_t element, std::size_t band) const {
-    if (!on_the_fly()) return radiosity::to_outside(areas(band), elements_, element);
     const auto& outside = outside_[matrix_[band]];
     return outside.empty() ? 0.0 : outside[element];
 }
@@ -134,11 +151,11 @@ SolverResult CoarseSolution::solve_band(std::size_t band, std::span<const double
                                         const NamedSolver& solver,
                                         const SolverOptions& options) const {
     LinearProblem problem{elements_, areas(band), band, source};
+    problem.outside = outside_[matrix_[band]];
     if (on_the_fly()) {
         problem.rows = [this, band](std::span<const ElementId> rows, const RowSink& sink) {
             make_rows(band, rows, sink);
         };
-        problem.outside = outside_[matrix_[band]];
     }
     SolverOptions chosen = options;
     // On kept rows a solver is done before a stop is worth what it costs the solution.
@@ -186,6 +203,16 @@ std::size_t CoarseSolution::memory() const {
     for (const auto& outside : outside_) bytes += outside.size() * sizeof(double);
     for (const auto& areas : areas_) bytes += areas.memory();
     return bytes;
+}
+
+double CoarseSolution::mean_square() const {
+    double square = 0.0, capacity = 0.0;
+    for (std::size_t k = 0; k < elements_.capacity.size(); ++k) {
+        const double x = solved_.reflected[k];
+        square += elements_.capacity[k] * x * x;
+        capacity += elements_.capacity[k];
+    }
+    return capacity > 0.0 ? square / capacity : 0.0;
 }
 
 double CoarseSolution::split_emission(std::size_t element, std::size_t band) const {

@@ -20,7 +20,8 @@ struct KeptRows {
 
 class CoarseSolution {
   public:
-    // The elements are the forest's leaves now; rows are made here, once a distinct extinction.
+    // The elements are the forest's leaves now; rows are made here, once a distinct extinction,
+    // of all by one walk where the method can.
     CoarseSolution(const Enclosure& enclosure, const Forest& forest, const SolveOptions& options,
                    const ProgressCallback& progress);
     // With elements of the caller's, clusters for instance. `kept`: rows that what has moved since
@@ -78,6 +79,8 @@ class CoarseSolution {
     double reflected(std::size_t element, std::size_t band) const {
         return solved_.reflected[element * elements_.bands + band];
     }
+    // Σ c r² over Σ c, of all bands [(W/m^2/sr)^2].
+    double mean_square() const;
     // e^A: emission counted in closed form, of sides that shine; 0 else.
     double split_emission(std::size_t element, std::size_t band) const;
 
@@ -91,6 +94,7 @@ class CoarseSolution {
 
     bool on_the_fly() const { return options_.shots == Shots::on_the_fly; }
     ExchangeOptions exchange_options(std::size_t band) const;
+    void make_areas(std::span<const std::size_t> bands, const KeptRows* kept);
     void make_rows(std::size_t band, std::span<const ElementId> rows, const RowSink& sink) const;
     void find_outside(std::size_t band);
     SolverResult solve_band(std::size_t band, std::span<const double> source,
@@ -112,7 +116,7 @@ class CoarseSolution {
     SettledEmission settled_;
     std::vector<ExchangeAreas> areas_;
     std::vector<std::size_t> matrix_;  // which of areas_ a band uses
-    // On the fly, of each of areas_: S_i,out of every element, nothing if the scene is closed.
+    // Of each of areas_: S_i,out of every element; on the fly nothing if the scene is closed [m^2].
     std::vector<std::vector<double>> outside_;
     mutable std::vector<double> closure_;  // of each of areas_, of rows made so far
     Solved solved_;

@@ -95,7 +95,8 @@ std::vector<double> ends_of_light(const LinearProblem& problem, const ColumnShar
     }
     std::vector<double> result(problem.elements.size());
     for (std::size_t j = 0; j < result.size(); ++j) {
-        double sum = to_outside(areas, problem.elements, j);
+        double sum =
+            problem.outside.empty() ? to_outside(areas, problem.elements, j) : problem.outside[j];
         for (const auto& part : shares.of(j)) {
             sum += part.share * of_columns[part.column];
             if (!of_gradients.empty()) sum += glm::dot(part.gradient, of_gradients[part.column]);

@@ -35,6 +35,8 @@ void compare_materials(const Scene& before, const Scene& after, Differences& dif
         const Material &a = before.materials[m], &b = after.materials[m];
         const std::string of = fmt::format(" of material \"{}\"", b.name);
         differences.compare(a.reflectance, b.reflectance, SceneChange::optics, "reflectance" + of);
+        differences.compare(a.specular, b.specular, SceneChange::optics, "specular" + of);
+        differences.compare(a.roughness, b.roughness, SceneChange::optics, "roughness" + of);
         differences.compare_source(a.emission, b.emission, "emission" + of);
         differences.compare_source(a.power, b.power, "power" + of);
         differences.compare(a.flux, b.flux, SceneChange::optics, "flux" + of);
@@ -104,6 +106,7 @@ void compare_media(const Scene& before, const Scene& after, Differences& differe
             differences.add(SceneChange::geometry, "shape of the extinction" + of);
         differences.compare(a.albedo, b.albedo, SceneChange::optics, "albedo" + of);
         differences.compare(a.asymmetry, b.asymmetry, SceneChange::optics, "phase" + of);
+        differences.compare(a.phase, b.phase, SceneChange::optics, "kind of phase" + of);
         differences.compare_source(a.emission, b.emission, "emission" + of);
         differences.compare_source(a.heat, b.heat, "heat" + of);
         differences.compare(a.at, b.at, SceneChange::geometry, "at" + of);

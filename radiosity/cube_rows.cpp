@@ -19,7 +19,7 @@ class CubeRows {
     CubeRows(const Discretization& d, const ExchangeOptions& options, const CubeKinds& kinds)
         : d_(d), options_(options), kinds_(kinds), centres_(d, options.settings, options.seed) {
         if (options.settings.projection == Projection::walked)
-            scene_.emplace(d, nullptr, options.band, 0.0);
+            scene_.emplace(d, nullptr, std::span(&options.band, 1), 0.0);
         else
             drawn_.emplace(d, options.band);
     }
@@ -66,9 +66,9 @@ class CubeRows {
 
     void walk(ElementId id, const CubeCentre& centre, RowAccumulator<double>& sums) const {
         double weight = 0.0;
-        RowWalk walk(*scene_, [&](std::uint32_t column, double share, double) {
-            sums.add(column, weight * share);
-        });
+        const auto deposit = [&](std::uint32_t column, const std::array<double, 1>& share,
+                                 const auto&) { sums.add(column, weight * share[0]); };
+        RowWalk<1, decltype(deposit)> walk(*scene_, deposit);
         for (const CubeFace& face : faces_of(id))
             for (std::size_t j = 0; j < face.nv; ++j)
                 for (std::size_t i = 0; i < face.nu; ++i) {

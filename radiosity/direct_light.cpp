@@ -19,7 +19,7 @@
 namespace tyndall::radiosity {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 // Of the mesh's diagonal: above what rounding does to points computed on a plane.
 constexpr double on_plane = 1e-10;
 constexpr double merge_tolerance = 1e-11;

@@ -227,6 +227,32 @@ class Binder {
     std::vector<std::uint32_t> indices_;  // 2 × surface + back → side
 };
 
+// What the solve takes for evenly scattered light.
+void warn_of_directions(const Scene& scene, Enclosure& enclosure) {
+    const auto warn = [&](std::string text) { enclosure.warnings.push_back(std::move(text)); };
+    for (const Medium& medium : scene.media) {
+        if (medium.asymmetry != 0.0)
+            warn(fmt::format(
+                "medium \"{}\" scatters anisotropically (g = {}): the solve and the line-of-sight "
+                "picture use the reduced scattering coefficient (1 - g) kappa_s. Render by "
+                "two_pass or path_traced for the phase function itself.",
+                medium.name, medium.asymmetry));
+        if (medium.phase == PhaseKind::rayleigh)
+            warn(
+                fmt::format("medium \"{}\" scatters by Rayleigh's phase function: the solve and "
+                            "the line-of-sight picture scatter isotropically. Render by two_pass "
+                            "or path_traced for the phase function itself.",
+                            medium.name));
+    }
+    for (const Material& material : scene.materials)
+        if (std::ranges::any_of(material.specular, [](double rho) { return rho > 0.0; }))
+            warn(
+                fmt::format("material \"{}\" has a specular part: the solve and the line-of-sight "
+                            "picture scatter it evenly, as if it were reflectance. Render by "
+                            "two_pass or path_traced for mirror images.",
+                            material.name));
+}
+
 bool asks_for_temperatures(const Scene& scene) {
     return scene.spectral.thermal(scene.bands) &&
            (scene.thermal ||
@@ -263,12 +289,7 @@ Enclosure make_enclosure(const Scene& scene, const EnclosureOptions& options) {
     bind_emissions(scene, enclosure);
     refuse_unsteady(scene, enclosure);
     if (own) note_own_tetrahedra(fitted, options.tetrahedra.string(), enclosure);
-    for (const Medium& medium : scene.media)
-        if (medium.asymmetry != 0.0)
-            enclosure.warnings.push_back(fmt::format(
-                "medium \"{}\" scatters anisotropically (g = {}): the solve and the line-of-sight "
-                "picture use the reduced scattering coefficient (1 - g) kappa_s.",
-                medium.name, medium.asymmetry));
+    warn_of_directions(scene, enclosure);
     return enclosure;
 }
 

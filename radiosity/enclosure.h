@@ -11,6 +11,7 @@
 #include "mesh/conform.h"
 #include "mesh/tetrahedralize.h"
 #include "radiosity/extinction_field.h"
+#include "radiosity/phase_function.h"
 #include "radiosity/scene.h"
 
 namespace tyndall::radiosity {
@@ -33,6 +34,15 @@ struct SurfaceSide {
     // Net flux out of it in all bands together, where its temperature settles by that: its emission
     // in each band is found with the solution [W/m^2].
     std::optional<double> settled_flux{};
+    // The part of `reflectance` that goes about the mirror direction, which the solve scatters as
+    // if it were Lambertian; empty: none [-].
+    Spectrum specular{};
+    double roughness = 0.0;  // of that part; 0 a mirror [-]
+
+    // Lambertian, rho_d.
+    double diffuse(std::size_t band) const {
+        return specular.empty() ? reflectance[band] : reflectance[band] - specular[band];
+    }
 };
 
 // A medium as it is solved: isotropic, with the reduced coefficients of an anisotropic one.
@@ -47,6 +57,10 @@ struct MediumOptics {
     std::optional<double> settled_heat{};
     // kappa_t of every band where it varies in space; empty: it is uniform.
     std::vector<ExtinctionBand> varying{};
+    // The coefficient as it is, not reduced: kappa_s / (1 − g); its mean where it varies. Empty:
+    // extinction − absorption [1/m].
+    Spectrum scattering{};
+    PhaseFunction phase{};
 };
 
 inline constexpr std::uint32_t none = 0xffffffffu;

@@ -71,7 +71,11 @@ SurfaceSide side_of_surface(const Scene& scene, const Enclosure& enclosure, std:
     result.surface = surface;
     result.side = side;
     result.reflectance = material->reflectance;
-    for (const double rho : material->reflectance) result.emissivity.push_back(1.0 - rho);
+    result.specular = material->specular;
+    result.roughness = material->roughness;
+    for (std::size_t b = 0; b < result.specular.size(); ++b)
+        result.reflectance[b] = std::min(1.0, result.reflectance[b] + result.specular[b]);
+    for (const double rho : result.reflectance) result.emissivity.push_back(1.0 - rho);
     if (emits && !material->flux.empty()) {
         if (enclosure.settles())
             result.settled_flux = material->flux[0];

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "radiosity/leaf_light.h"
+#include "radiosity/view.h"
 
 namespace tyndall::radiosity {
 

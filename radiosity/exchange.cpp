@@ -21,25 +21,69 @@ void append_rounded(std::span<const double> row, std::vector<float>& values) {
     }
 }
 
+// make(rows, options, sinks) of a method.
+using MakeRows = std::function<void(std::span<const ElementId>, const ExchangeOptions&,
+                                    std::span<const RowSink>)>;
+
 // Space for all rows, by the mean length of some: growth would copy, and hold both copies.
-void reserve(ExchangeAreas& areas, ExchangeMethod method, const Discretization& d,
+void reserve(std::vector<ExchangeAreas>& areas, const MakeRows& make, std::size_t count,
              ExchangeOptions options) {
     constexpr std::size_t sample = 256;
-    const std::size_t count = d.elements.size();
-    areas.starts.reserve(count + 1);
+    for (ExchangeAreas& one : areas) one.starts.reserve(count + 1);
     if (count < 16 * sample) return;
     std::vector<ElementId> rows;
     for (std::size_t k = 0; k < sample; ++k) rows.push_back(ElementId(k * count / sample));
     options.progress = {};
     options.lost_rays = nullptr;
-    std::size_t entries = 0;
-    method(d, rows, options, [&](const Row& row) { entries += row.columns.size(); });
-    // A tenth more: memory that is not written to is not taken.
-    const std::size_t all = entries * count / sample;
-    areas.columns.reserve(all + all / 10);
-    areas.values.reserve(all + all / 10);
-    if (options.radiance == Radiance::linear) areas.moments.reserve(all + all / 10);
-    if (options.settings.smoothing != Smoothing::none) areas.remainders.reserve(all + all / 10);
+    std::vector<std::size_t> entries(areas.size(), 0);
+    std::vector<RowSink> sinks;
+    for (std::size_t& sum : entries)
+        sinks.push_back([&sum](const Row& row) { sum += row.columns.size(); });
+    make(rows, options, sinks);
+    for (std::size_t a = 0; a < areas.size(); ++a) {
+        // A tenth more: memory that is not written to is not taken.
+        const std::size_t all = entries[a] * count / sample;
+        areas[a].columns.reserve(all + all / 10);
+        areas[a].values.reserve(all + all / 10);
+        if (options.radiance == Radiance::linear) areas[a].moments.reserve(all + all / 10);
+        if (options.settings.smoothing != Smoothing::none)
+            areas[a].remainders.reserve(all + all / 10);
+    }
+}
+
+std::vector<ExchangeAreas> make_all_rows(const MakeRows& make, const Discretization& d,
+                                         const ExchangeOptions& options,
+                                         std::span<const std::size_t> bands) {
+    const Smoothing smoothing = options.settings.smoothing;
+    check_smoothing(smoothing, options.detail);
+    std::vector<ElementId> rows(d.elements.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = ElementId(i);
+    std::vector<ExchangeAreas> areas(bands.size());
+    ExchangeOptions chosen = options;
+    if (options.detail > 0.0 || !d.elements.member_starts.empty())
+        chosen.radiance = Radiance::constant;
+    if (chosen.radiance == Radiance::linear) {
+        const auto gradients =
+            std::make_shared<const ElementGradients>(d.enclosure, d.forest, d.elements);
+        for (ExchangeAreas& one : areas) one.gradients = gradients;
+    }
+    if (options.detail > 0.0 && d.elements.member_starts.empty()) {
+        const RowLevels levels =
+            options.levels ? *options.levels : make_row_levels(d.enclosure, d.forest, d.elements);
+        for (ExchangeAreas& one : areas) one.levels = levels;
+        chosen.levels = &areas.front().levels;
+    }
+    reserve(areas, make, rows.size(), chosen);
+    std::vector<RowSink> sinks;
+    for (ExchangeAreas& one : areas)
+        sinks.push_back([&one, smoothing](const Row& row) {
+            append(one, row,
+                   smoothing == Smoothing::none ? Precision::single_sums : Precision::doubled);
+        });
+    make(rows, chosen, sinks);
+    for (std::size_t k = 0; k < bands.size() && smoothing != Smoothing::none; ++k)
+        areas[k] = smooth(std::move(areas[k]), d.elements, bands[k], smoothing);
+    return areas;
 }
 
 // Adds Σ_j M_ij · g_j to the sums of all rows, given g one an element; outside has none.
@@ -74,31 +118,23 @@ void append(ExchangeAreas& areas, const Row& row, Precision precision) {
 
 ExchangeAreas all_rows(ExchangeMethod method, const Discretization& discretization,
                        const ExchangeOptions& options) {
-    const Smoothing smoothing = options.settings.smoothing;
-    check_smoothing(smoothing, options.detail);
-    std::vector<ElementId> rows(discretization.elements.size());
-    for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = ElementId(i);
-    ExchangeAreas areas;
-    ExchangeOptions chosen = options;
-    if (options.detail > 0.0 || !discretization.elements.member_starts.empty())
-        chosen.radiance = Radiance::constant;
-    if (chosen.radiance == Radiance::linear)
-        areas.gradients = std::make_shared<const ElementGradients>(
-            discretization.enclosure, discretization.forest, discretization.elements);
-    if (options.detail > 0.0 && discretization.elements.member_starts.empty()) {
-        areas.levels = options.levels
-                           ? *options.levels
-                           : make_row_levels(discretization.enclosure, discretization.forest,
-                                             discretization.elements);
-        chosen.levels = &areas.levels;
-    }
-    reserve(areas, method, discretization, chosen);
-    method(discretization, rows, chosen, [&](const Row& row) {
-        append(areas, row,
-               smoothing == Smoothing::none ? Precision::single_sums : Precision::doubled);
-    });
-    if (smoothing == Smoothing::none) return areas;
-    return smooth(std::move(areas), discretization.elements, options.band, smoothing);
+    const auto make = [&](std::span<const ElementId> rows, const ExchangeOptions& chosen,
+                          std::span<const RowSink> sinks) {
+        method(discretization, rows, chosen, sinks.front());
+    };
+    return std::move(
+        make_all_rows(make, discretization, options, std::span(&options.band, 1)).front());
+}
+
+std::vector<ExchangeAreas> all_rows(BandsExchangeMethod method,
+                                    const Discretization& discretization,
+                                    const ExchangeOptions& options,
+                                    std::span<const std::size_t> bands) {
+    const auto make = [&](std::span<const ElementId> rows, const ExchangeOptions& chosen,
+                          std::span<const RowSink> sinks) {
+        method(discretization, rows, chosen, bands, sinks);
+    };
+    return make_all_rows(make, discretization, options, bands);
 }
 
 std::vector<double> multiply(const ExchangeAreas& areas, const Elements& elements,

@@ -57,6 +57,11 @@ using RowSink = std::function<void(const Row&)>;
 using ExchangeMethod = void (*)(const Discretization&, std::span<const ElementId> rows,
                                 const ExchangeOptions&, const RowSink&);
 
+// Rows of several bands made together, each into its sink.
+using BandsExchangeMethod = void (*)(const Discretization&, std::span<const ElementId> rows,
+                                     const ExchangeOptions&, std::span<const std::size_t> bands,
+                                     std::span<const RowSink> sinks);
+
 // What smoothing (smoothing.h) did to rows, and what it had to mend.
 struct SmoothingReport {
     Smoothing method = Smoothing::none;
@@ -119,6 +124,12 @@ double to_outside(const ExchangeAreas& areas, const Elements& elements, std::siz
 // Errors: mesh::InputError for smoothing with level of detail.
 ExchangeAreas all_rows(ExchangeMethod method, const Discretization& discretization,
                        const ExchangeOptions& options);
+
+// The same for each of several bands; `options.band` is not read.
+std::vector<ExchangeAreas> all_rows(BandsExchangeMethod method,
+                                    const Discretization& discretization,
+                                    const ExchangeOptions& options,
+                                    std::span<const std::size_t> bands);
 
 // max_i |Σ_j S_ij − c_i| / c_i, outside counted [-].
 double closure_error(const ExchangeAreas& areas, const Elements& elements, std::size_t band);

@@ -18,6 +18,7 @@ struct NamedExchangeMethod {
     bool moments = false;   //   first moments, so that elements hold linear functions
     bool detail = false;    //   deposits in coarser elements (ExchangeOptions::detail)
     bool radius = false;    //   heeds ExchangeSettings::interaction_radius
+    BandsExchangeMethod of_bands = nullptr;  // makes rows of several bands at once
 };
 
 // The default first.

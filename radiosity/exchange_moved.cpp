@@ -7,6 +7,9 @@
 namespace tyndall::radiosity {
 namespace {
 
+using PlacedShare = InBands<glm::dvec4, 1>;
+using PlacedSums = PlacedShares<1>;
+
 class MovedRows {
   public:
     MovedRows(const Discretization& now, const RowsBefore& before, const ExchangeOptions& options,
@@ -14,19 +17,19 @@ class MovedRows {
         : now_(now),
           before_(before),
           options_(options),
-          row_now_(now, options, points),
-          row_before_(before.discretization, options, points),
+          row_now_(now, options, std::span(&options.band, 1), points),
+          row_before_(before.discretization, options, std::span(&options.band, 1), points),
           walked_(walked) {}
 
-    void row(ElementId id, PlacedShares& sums, FinishedRows& rows) const {
+    void row(ElementId id, PlacedSums& sums, FinishedRows& rows) const {
         const bool linear = options_.radiance == Radiance::linear;
         if (!add_corrected(id.value, sums)) {
             walked_ += options_.rays;
-            row_now_.row(id, sums, rows);
-            if (!linear) rows.moments.clear();
+            row_now_.row(id, sums, std::span(&rows, 1));
             return;
         }
-        sums.take([&](std::uint32_t column, const glm::dvec4& sum) {
+        sums.take([&](std::uint32_t column, const PlacedShare& of_band) {
+            const glm::dvec4& sum = of_band.of[0];
             if (!(sum.x > 0.0)) return;
             rows.columns.push_back(column);
             rows.values.push_back(sum.x);
@@ -39,18 +42,18 @@ class MovedRows {
 
   private:
     // The row in m^2, with the places of its deposits; false where it is to be walked anew.
-    bool add_corrected(std::size_t i, PlacedShares& sums) const {
+    bool add_corrected(std::size_t i, PlacedSums& sums) const {
         const Elements& e = now_.elements;
         if (e.is_patch(i) && mesh::on_body(now_.enclosure.mesh,
                                            FacetId(now_.forest.base_facet_side(e.patches[i]) / 2)))
             return false;
-        if (row_now_.capacity(i) != row_before_.capacity(i)) return false;
+        if (row_now_.capacity(i, 0) != row_before_.capacity(i, 0)) return false;
         thread_local std::vector<std::size_t> met;
         met.clear();
         double count = 0.0;
         for (std::size_t k = 0; k < options_.rays; ++k) {
-            const RayStart at = row_now_.start(i, k);
-            count += at.weight;
+            const RayStart<1> at = row_now_.start(i, k);
+            count += at.weight[0];
             if (!meets(now_.enclosure, at.ray) && !meets(before_.discretization.enclosure, at.ray))
                 continue;
             if (!row_now_.open(i, at) || !row_before_.open(i, at)) return false;
@@ -58,10 +61,10 @@ class MovedRows {
         }
         if (!(count > 0.0)) return false;
         add_kept(i, sums);
-        const double scale = row_now_.capacity(i) / count;
+        const double scale = row_now_.capacity(i, 0) / count;
         walked_ += met.size();
         for (const std::size_t k : met) {
-            const RayStart at = row_now_.start(i, k);
+            const RayStart<1> at = row_now_.start(i, k);
             add(row_before_, at, -scale, sums);
             add(row_now_, at, scale, sums);
         }
@@ -74,7 +77,7 @@ class MovedRows {
         });
     }
 
-    void add_kept(std::size_t i, PlacedShares& sums) const {
+    void add_kept(std::size_t i, PlacedSums& sums) const {
         const ExchangeAreas& areas = before_.areas;
         for (std::size_t k = areas.starts[i]; k < areas.starts[i + 1]; ++k) {
             const auto column = areas.columns[k];
@@ -83,22 +86,32 @@ class MovedRows {
             if (!areas.moments.empty())
                 place = Point(areas.moments[k]) +
                         value * (row_before_.centre(column) - row_before_.middle());
-            sums.add(column, glm::dvec4(value, place));
+            sums.add(column, placed(glm::dvec4(value, place)));
         }
     }
 
-    static void add(const RowWalker& rows, const RayStart& at, double scale, PlacedShares& sums) {
-        RowWalk walk(rows.scene(), [&](std::uint32_t column, double share, double distance) {
-            const Point place = at.ray.origin - rows.middle() + distance * at.ray.direction;
-            sums.add(column, scale * at.weight * share * glm::dvec4(1.0, place));
-        });
+    static PlacedShare placed(const glm::dvec4& share) {
+        PlacedShare result(0.0);
+        result.of[0] = share;
+        return result;
+    }
+
+    static void add(const RowWalker<1>& rows, const RayStart<1>& at, double scale,
+                    PlacedSums& sums) {
+        using Values = RowWalker<1>::Values;
+        const auto deposit = [&](std::uint32_t column, const Values& share,
+                                 const Values& distance) {
+            const Point place = at.ray.origin - rows.middle() + distance[0] * at.ray.direction;
+            sums.add(column, placed(scale * at.weight[0] * share[0] * glm::dvec4(1.0, place)));
+        };
+        RowWalk<1, decltype(deposit)> walk(rows.scene(), deposit);
         walk.follow(at.ray, at.at);
     }
 
     const Discretization& now_;
     const RowsBefore& before_;
     const ExchangeOptions& options_;
-    RowWalker row_now_, row_before_;
+    RowWalker<1> row_now_, row_before_;
     std::atomic<std::size_t>& walked_;
 };
 
@@ -121,8 +134,8 @@ ExchangeAreas moved_rows(const Discretization& now, const RowsBefore& before,
     const std::size_t run = std::clamp<std::size_t>(rows.size() / 64, 1, 32);
     make_row_batches(
         now, rows, options, [&](const Row& row) { append(areas, row, Precision::single_sums); },
-        run, PlacedShares(now.elements.size() + 1),
-        [&](ElementId id, PlacedShares& sums, FinishedRows& finished) {
+        run, PlacedSums(now.elements.size() + 1),
+        [&](ElementId id, PlacedSums& sums, FinishedRows& finished) {
             moved.row(id, sums, finished);
         });
     return areas;

@@ -28,4 +28,11 @@ namespace tyndall::radiosity {
 void exchange_walked(const Discretization& discretization, std::span<const ElementId> rows,
                      const ExchangeOptions& options, const RowSink& sink);
 
+// The same rows of several bands from one walk, sinks[k] those of bands[k]; `options.band` is not
+// read. Each band's are those that exchange_walked makes, to the bit, where no medium of it is
+// transparent in one band and not in another. Cost: a walk for all, a deposit in every band.
+void exchange_walked_bands(const Discretization& discretization, std::span<const ElementId> rows,
+                           const ExchangeOptions& options, std::span<const std::size_t> bands,
+                           std::span<const RowSink> sinks);
+
 }  // namespace tyndall::radiosity

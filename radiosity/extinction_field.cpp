@@ -13,7 +13,7 @@ namespace {
 
 constexpr double towards_corner = 0.4472135954999579;  // 1/√5: the rule's points, from the centroid
 constexpr double agreement = 1e-3;                     // of a tet's mean and that of its halves
-// A tet that is large beside the grid's cells is halved so often without asking, and more often
+// A tet that is large beside the grid's grain is halved so often without asking, and more often
 // only where its halves disagree.
 constexpr int blind_halvings = 9, most_halvings = 12;
 
@@ -56,16 +56,16 @@ std::array<std::array<Point, 4>, 2> halves(const std::array<Point, 4>& corners, 
 }
 
 Moment over(const ExtinctionBand& band, const std::array<Point, 4>& corners, const Moment& whole,
-            double cell, int level) {
+            double grain, int level) {
     double longest;
     const auto parts = halves(corners, longest);
     const Moment first = by_rule(band, parts[0]), second = by_rule(band, parts[1]);
     const Moment both = first + second;
     const bool agree = std::abs(both.amount - whole.amount) <= agreement * both.amount;
-    const bool seen = longest <= 2.0 * cell || level >= blind_halvings;
+    const bool seen = longest <= 2.0 * grain || level >= blind_halvings;
     if (level == most_halvings || (seen && agree)) return both;
-    return over(band, parts[0], first, cell, level + 1) +
-           over(band, parts[1], second, cell, level + 1);
+    return over(band, parts[0], first, grain, level + 1) +
+           over(band, parts[1], second, grain, level + 1);
 }
 
 // The function's values while the grid gets finer.
@@ -212,9 +212,9 @@ class Sampler {
 }  // namespace
 
 TetExtinction over_tet(const ExtinctionBand& band, const std::array<Point, 4>& corners) {
-    const Direction cell = band.shape->cell();
+    const Direction grain = band.shape->grain();
     const Moment moment =
-        over(band, corners, by_rule(band, corners), std::min({cell.x, cell.y, cell.z}), 0);
+        over(band, corners, by_rule(band, corners), std::min({grain.x, grain.y, grain.z}), 0);
     const Point centroid = 0.25 * (corners[0] + corners[1] + corners[2] + corners[3]);
     return {moment.amount, moment.amount > 0.0 ? moment.place / moment.amount : centroid};
 }

@@ -25,11 +25,47 @@ struct ExtinctionBand {
     }
     // Weights of the segment's ends, for J linear in s (45).
     SegmentWeights weights(Point origin, Direction direction, double begin, double end) const {
-        const double middle = 0.5 * (begin + end);
-        return segment_weights(depth(origin, direction, begin, middle),
-                               depth(origin, direction, middle, end));
+        const auto halves = shape->halves(origin, direction, begin, end);
+        return segment_weights(factor * halves[0], factor * halves[1]);
     }
     bool operator==(const ExtinctionBand&) const = default;
+};
+
+// One segment in several bands, one after the other: a shape that bands share is integrated once.
+class SegmentOfBands {
+  public:
+    SegmentOfBands(Point origin, Direction direction, double begin, double end)
+        : origin_(origin), direction_(direction), begin_(begin), end_(end) {}
+
+    // As ExtinctionBand::weights.
+    const SegmentWeights& weights(const ExtinctionBand& band) {
+        if (band.shape.get() != shape_) {
+            halves_ = band.shape->halves(origin_, direction_, begin_, end_);
+            shape_ = band.shape.get();
+        } else if (band.factor == factor_) {
+            return weights_;
+        }
+        factor_ = band.factor;
+        weights_ = segment_weights(factor_ * halves_[0], factor_ * halves_[1]);
+        return weights_;
+    }
+    // As ExtinctionBand::depth [-].
+    double depth(const ExtinctionBand& band) {
+        if (band.shape.get() != whole_shape_) {
+            whole_ = band.shape->integral(origin_, direction_, begin_, end_);
+            whole_shape_ = band.shape.get();
+        }
+        return band.factor * whole_;
+    }
+
+  private:
+    Point origin_;
+    Direction direction_;
+    double begin_, end_;  // [m]
+    const RegularGrid *shape_ = nullptr, *whole_shape_ = nullptr;
+    std::array<double, 2> halves_{};
+    double whole_ = 0.0, factor_ = 0.0;
+    SegmentWeights weights_{};
 };
 
 // Of a tet: the mean of kappa_t, and the centre of its distribution.
@@ -40,8 +76,8 @@ struct TetExtinction {
 
 // Purpose: ∫ κ dV and its centre.
 // Method: a rule of degree 2 with four points, on halves of the tet until they say the same to
-//   1e-3, and at least until they are about as small as the grid's cells, or 512.
-// Cost: 12 values for a tet within a cell, some ten thousand at most.
+//   1e-3, and at least until they are about as small as the grid's grain, or 512.
+// Cost: 12 values for a tet within a grain, some ten thousand at most.
 TetExtinction over_tet(const ExtinctionBand& band, const std::array<Point, 4>& corners);
 // The mean alone by four points, where a guess will do [1/m].
 double rough_mean(const ExtinctionBand& band, const std::array<Point, 4>& corners);

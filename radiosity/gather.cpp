@@ -17,7 +17,7 @@ GatherScene::GatherScene(const Enclosure& enclosure, const Forest& forest, const
     : enclosure_(enclosure),
       forest_(forest),
       nodes_(forest.zone_count()),
-      sources_(sources.zone.size()),
+      stride_(sources.bands < 3 ? sources.bands : (sources.bands + 3) / 4 * 4),
       patches_(sources.patch),
       detail_(static_cast<float>(detail)) {
     for (std::size_t z = 0; z < nodes_.size(); ++z) {
@@ -27,10 +27,12 @@ GatherScene::GatherScene(const Enclosure& enclosure, const Forest& forest, const
                      node.first_child.value,
                      node.longest_edge};
     }
-    for (std::size_t k = 0; k < sources_.size(); ++k) {
+    sources_.resize(nodes_.size() * stride_ / 4 + 1);
+    Source* const first = sources_[0].of;
+    for (std::size_t k = 0; k < sources.zone.size(); ++k) {
         const Affine& f = sources.zone[k];
-        sources_[k] = {{float(f.gradient.x), float(f.gradient.y), float(f.gradient.z)},
-                       float(f.constant)};
+        first[k / sources.bands * stride_ + k % sources.bands] = {
+            {float(f.gradient.x), float(f.gradient.y), float(f.gradient.z)}, float(f.constant)};
     }
     for (std::size_t t = 0; t < enclosure.mesh.tets.size(); ++t)
         for (std::size_t b = 0; b < enclosure.bands; ++b)
@@ -68,6 +70,7 @@ class RadianceWalk {
         std::uint32_t zone = tet.value;
         for (;;) {
             const GatherScene::Node& node = s_.nodes_[zone];
+            __builtin_prefetch(s_.sources(zone));  // a leaf's are needed with it
             if (node.child == none || depth == 128 || node.longest_edge < s_.detail_ * t_in) {
                 // A linear fit may dip below zero in a leaf's corner; radiance does not. An
                 // ancestor's may dip where it stands for lit and dark leaves, and be right in the
@@ -105,15 +108,17 @@ class RadianceWalk {
     // `least`: below which J is not taken.
     bool gain(std::uint32_t zone, const float* extinction, float t_in, float t_out, float least) {
         float most = 0.0f;
+        const GatherScene::Source* sources = s_.sources(zone);
         SegmentWeights w{};
+        SegmentOfBands segment(ray_.origin, ray_.direction, t_in, t_out);
         for (std::size_t b = 0; b < bands_; ++b) {
-            const GatherScene::Source& source = s_.sources_[zone * bands_ + b];
+            const GatherScene::Source& source = sources[b];
             const float start = dot(source.gradient, origin_) + source.constant;
             const float slope = dot(source.gradient, direction_);
-            if (!varying_)
+            if (varying_)
+                w = segment.weights(varying_[b]);
+            else if (b == 0 || extinction[b] != extinction[b - 1])
                 w = segment_weights(extinction[b] * (t_out - t_in));
-            else if (b == 0 || !(varying_[b] == varying_[b - 1]))
-                w = varying_[b].weights(ray_.origin, ray_.direction, t_in, t_out);
             float& transmittance = transmittance_[b];
             radiance_[b] += transmittance * (w.front * std::max(least, start + t_in * slope) +
                                              w.back * std::max(least, start + t_out * slope));

@@ -45,10 +45,16 @@ class GatherScene {
     struct Source {
         float gradient[3], constant;
     };
+    struct alignas(64) Sources {
+        Source of[4];
+    };
+    const Source* sources(std::uint32_t zone) const { return sources_[0].of + zone * stride_; }
     const Enclosure& enclosure_;
     const Forest& forest_;
-    std::vector<Node> nodes_;        // of zones
-    std::vector<Source> sources_;    // of zones, [node * bands + band]
+    std::vector<Node> nodes_;  // of zones
+    // Of zones, [node * stride + band]: those of a node lie in as few cache lines as can be.
+    std::vector<Sources> sources_;
+    std::size_t stride_;
     std::vector<Affine> patches_;    // of patches, [node * bands + band]
     std::vector<float> extinction_;  // of base tets, [tet * bands + band] [1/m]
     // Of base tets, that of the first band, others follow; null where it is uniform. Empty where it

@@ -29,22 +29,9 @@ Importance::Importance(const Enclosure& enclosure, const Forest& forest,
     if (scale.solution > 0.0 && capacity > 0.0)
         solution_factor_ = 1.0 / (capacity * scale.solution);
     if (view_ && scale.picture > 0.0) {
-        const double a = view_->tan_half_x, b = view_->tan_half_y;
-        const double solid_angle =
-            4.0 * std::asin(a * b / std::sqrt((1.0 + a * a) * (1.0 + b * b)));
-        picture_factor_ = 1.0 / (solid_angle * scale.picture * scale.picture);
+        picture_factor_ = 1.0 / (view_->extent() * scale.picture * scale.picture);
         solution_factor_ *= unseen_share;
     }
-}
-
-bool Importance::in_view(Point centre, double radius) const {
-    const auto d = centre - view_->eye;
-    const double z = glm::dot(d, view_->forward);
-    if (z < -radius) return false;
-    const double x = std::abs(glm::dot(d, view_->right)), y = std::abs(glm::dot(d, view_->up));
-    const double a = view_->tan_half_x, b = view_->tan_half_y;
-    return x <= z * a + radius * std::sqrt(1.0 + a * a) &&
-           y <= z * b + radius * std::sqrt(1.0 + b * b);
 }
 
 double Importance::of(ZoneId zone) const {
@@ -56,12 +43,10 @@ double Importance::of(ZoneId zone) const {
     if (picture_factor_ > 0.0) {
         const double size = forest_[zone].longest_edge;
         const Point centre = forest_.centroid(zone);
-        if (in_view(centre, size)) {
-            const auto d = centre - view_->eye;
-            const double square = std::max(glm::dot(d, d), size * size);
+        if (view_->sees(centre, size)) {
             const double projected = std::cbrt(volume) * std::cbrt(volume);
             const double chord = extinction * volume / projected;
-            weight += picture_factor_ * chord * chord * projected / square;
+            weight += picture_factor_ * chord * chord * view_->covered(centre, projected, size);
         }
     }
     return weight;
@@ -74,13 +59,12 @@ double Importance::of(PatchId patch) const {
     if (picture_factor_ > 0.0) {
         const double size = forest_[patch].longest_edge;
         const Point centre = forest_.centroid(patch);
-        const auto d = view_->eye - centre;
-        const double distance = std::max(glm::length(d), 1e-12);
-        const double cosine = glm::dot(normal_of(forest_, patch), d) / distance;
+        const double distance = view_->distance_to(centre);
+        const double cosine = -glm::dot(normal_of(forest_, patch), view_->direction_to(centre));
         // A patch seen edge-on at its centre may still turn a corner to the camera.
-        const double facing = std::max(cosine, cosine > -size / distance ? 0.02 : 0.0);
-        if (facing > 0.0 && in_view(centre, size))
-            weight += picture_factor_ * area * facing / std::max(distance * distance, size * size);
+        const double facing = std::max(cosine, cosine * distance > -size ? 0.02 : 0.0);
+        if (facing > 0.0 && view_->sees(centre, size))
+            weight += picture_factor_ * view_->covered(centre, area * facing, size);
     }
     return weight;
 }

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "radiosity/element_mesh.h"
-#include "radiosity/options.h"
+#include "radiosity/view.h"
 
 namespace tyndall::radiosity {
 
@@ -14,7 +14,8 @@ namespace tyndall::radiosity {
 // Picture: an element of projected area P at distance d fills the solid angle P/d² of the view Ω,
 // and an error δJ of a zone changes the radiance seen through it by κ (V/P) δJ, so its share is
 //   patch: δI² (P/d²) / (Ω L²),   zone: (κ V/P)² δJ² (P/d²) / (Ω L²),      L the picture's mean
-//   radiance.
+//   radiance. In an orthographic picture areas stand for the solid angles: P, and that of the
+//   picture.
 // Solution: c_i δx² / Σ c x². With a view this counts by a small share only, since what the camera
 // does not see reaches the picture by reflection.
 class Importance {
@@ -31,8 +32,6 @@ class Importance {
     double of(PatchId patch) const;
 
   private:
-    bool in_view(Point centre, double radius) const;
-
     const Enclosure& enclosure_;
     const Forest& forest_;
     std::optional<View> view_;

@@ -113,6 +113,24 @@ DrawnElements::DrawnElements(const Discretization& d, std::size_t band)
         }
 }
 
+DrawnElements::DrawnElements(const Enclosure& enclosure, const Forest& forest) : outside(none) {
+    for (std::size_t k = 0; k < forest.vertex_count(); ++k)
+        points.push_back(forest.point(VertexId(k)));
+    for (std::size_t p = 0; p < forest.patch_count(); ++p) {
+        const PatchId patch(p);
+        const auto& facet = enclosure.mesh.facets[forest.base_facet_side(patch) / 2];
+        if (!forest.is_leaf(patch) || facet.opacity != mesh::Opacity::opaque) continue;
+        const auto& c = forest[patch].corners;
+        patches.push_back({{c[0].value, c[1].value, c[2].value}, patch.value});
+    }
+    for (std::size_t z = 0; z < forest.zone_count(); ++z) {
+        const ZoneId zone(z);
+        if (!forest.is_leaf(zone) || medium_of(enclosure, forest, zone) == none) continue;
+        const auto& c = forest[zone].corners;
+        zones.push_back({{c[0].value, c[1].value, c[2].value, c[3].value}, zone.value, 0.0});
+    }
+}
+
 void ItemBuffer::look_from(Point eye, const glm::dmat3& axes) {
     const glm::dmat3 turn = glm::transpose(axes);
     points_.clear();

@@ -2,16 +2,23 @@
 // and for zones a list a pixel (A-buffer) of where its ray enters and leaves them.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <glm/mat3x3.hpp>
+#include <span>
 
 #include "radiosity/cube_faces.h"
 #include "radiosity/exchange.h"
 
 namespace tyndall::radiosity {
 
-// What can be drawn, for all cubes: the members of all elements, as triangles and tetrahedra.
+// What can be drawn, for all cubes: triangles and tetrahedra.
 struct DrawnElements {
+    // The members of all elements; columns are elements'.
     DrawnElements(const Discretization& discretization, std::size_t band);
+    // The leaves: patches of opaque facets, zones of media. Columns are those of a PatchId or a
+    // ZoneId; what is outside has the column `none`. Extinctions are left at 0.
+    DrawnElements(const Enclosure& enclosure, const Forest& forest);
 
     struct Patch {
         std::array<std::uint32_t, 3> corners;  // counter-clockwise seen from the side it faces
@@ -52,13 +59,32 @@ class ItemBuffer {
     // Puts the eye, with the cube's axes as columns of `axes`.
     void look_from(Point eye, const glm::dmat3& axes);
 
-    // deposit(column, share) for every pixel of a face, in the order of pixels.
+    // deposit(column, share) for every pixel of a face, tile by tile.
     template <class Deposit>
-    void project(const CubeFace& face, Deposit&& deposit) {
+    void project(const CubeFace& face, Deposit&& deposit);
+
+    // A stretch of a pixel's ray in a zone. Distances along the pixel's direction, in units of its
+    // length.
+    struct Fragment {
+        std::uint32_t pixel, column;
+        double extinction;
+        double near, far;
+    };
+    // What a pixel shows: zones from the nearest on, no two at one place, and the patch behind.
+    struct Pixel {
+        std::size_t u, v;
+        std::span<const Fragment> zones;  // those with near >= far are to be passed over
+        std::uint32_t column;             // of the patch, or outside
+        double depth;                     // of the patch, likewise; infinity: none
+        double length;                    // of the direction
+    };
+    // see(pixel) for every pixel of a face, tile by tile.
+    template <class See>
+    void look(const CubeFace& face, See&& see) {
         for (std::size_t v = 0; v < face.nv; v += tile)
             for (std::size_t u = 0; u < face.nu; u += tile) {
                 draw(face, {u, std::min(u + tile, face.nu), v, std::min(v + tile, face.nv)});
-                hand_over(face, deposit);
+                hand_over(see);
             }
     }
 
@@ -90,11 +116,6 @@ class ItemBuffer {
         std::uint32_t column;
         double extinction;
     };
-    struct Fragment {
-        std::uint32_t pixel, column;
-        double extinction;
-        double near, far;  // along the pixel's direction, in units of its length
-    };
 
     void add_patch(const DrawnElements::Patch& patch);
     void add_zone(const DrawnElements::Zone& zone);
@@ -102,8 +123,8 @@ class ItemBuffer {
     void draw_patch(const CubeFace& face, const FacingPatch& patch);
     void draw_zone(const CubeFace& face, const SeenZone& zone);
     void sort_fragments();
-    template <class Deposit>
-    void hand_over(const CubeFace& face, Deposit&& deposit);
+    template <class See>
+    void hand_over(See&& see);
     // on(u, v, length, p) for the pixels of a box: `length` is that of the direction through u and
     // v, p the pixel's place in the tile.
     template <class On>
@@ -129,24 +150,34 @@ class ItemBuffer {
     std::vector<std::uint32_t> ends_;          // of every pixel's fragments
 };
 
-template <class Deposit>
-void ItemBuffer::hand_over(const CubeFace& face, Deposit&& deposit) {
-    std::size_t k = 0, p = 0;
-    for (std::size_t j = tile_.v_begin; j < tile_.v_end; ++j)
-        for (std::size_t i = tile_.u_begin; i < tile_.u_end; ++i, ++p) {
-            double left = face.weights[j * face.nu + i], reached = 0.0;
-            for (; k < ends_[p]; ++k) {
-                const Fragment& f = fragments_[k];
-                const double near = std::max(f.near, reached);
-                if (!(f.far > near)) continue;
-                const double lost =
-                    -left * std::expm1(-f.extinction * (f.far - near) * lengths_[p]);
-                deposit(f.column, lost);
-                left -= lost;
-                reached = f.far;
+template <class See>
+void ItemBuffer::hand_over(See&& see) {
+    std::size_t begin = 0, p = 0;
+    for (std::size_t v = tile_.v_begin; v < tile_.v_end; ++v)
+        for (std::size_t u = tile_.u_begin; u < tile_.u_end; ++u, ++p) {
+            const std::span<Fragment> zones(fragments_.data() + begin, ends_[p] - begin);
+            begin = ends_[p];
+            double reached = 0.0;
+            for (Fragment& f : zones) {
+                f.near = std::max(f.near, reached);
+                reached = std::max(reached, f.far);
             }
-            deposit(items_[p], left);
+            see(Pixel{u, v, zones, items_[p], depth_[p], lengths_[p]});
         }
+}
+
+template <class Deposit>
+void ItemBuffer::project(const CubeFace& face, Deposit&& deposit) {
+    look(face, [&](const Pixel& pixel) {
+        double left = face.weights[pixel.v * face.nu + pixel.u];
+        for (const Fragment& f : pixel.zones) {
+            if (!(f.far > f.near)) continue;
+            const double lost = -left * std::expm1(-f.extinction * (f.far - f.near) * pixel.length);
+            deposit(f.column, lost);
+            left -= lost;
+        }
+        deposit(pixel.column, left);
+    });
 }
 
 }  // namespace tyndall::radiosity

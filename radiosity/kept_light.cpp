@@ -106,7 +106,7 @@ GatherChange::GatherChange(const KeptLight& before, const Enclosure& enclosure,
             r[i] = gathered_from[k] - before.gathered_from[k];
             lit[i] = gathered_from[n * bands_ + k] - before.gathered_from[n * bands_ + k];
         }
-        std::vector<double> mean = multiply(areas, e, r);
+        std::vector<double> mean = multiply(areas, e, r);  // (50)
         for (std::size_t i = 0; i < n; ++i) mean[i] /= std::max(e.capacity[i * bands_ + b], 1e-300);
         set_linear(before, areas, mean, b, &change_[0]);
         set_linear(before, areas, lit, b, &change_[n * bands_]);

@@ -52,6 +52,27 @@ WeighedMean LeafLight::weighed_direct(ZoneId leaf, std::size_t band) {
     return weighed(leaf, band, direct_with_mean(leaf, band));
 }
 
+std::vector<double> LeafLight::means_of_direct(const Elements& e) {
+    const std::size_t bands = enclosure_.bands;
+    std::vector<double> result(e.size() * bands, 0.0);
+    std::vector<double> measure(e.size() * bands, 0.0);
+    const auto add = [&](auto node, std::uint32_t element) {
+        for (std::size_t b = 0; b < bands; ++b) {
+            const WeighedMean one = weighed_direct(node, b);
+            measure[element * bands + b] += one.measure;
+            result[element * bands + b] += one.measure * one.mean;
+        }
+    };
+    const Forest& forest = mesh_.forest();
+    for (const ZoneId z : mesh_.zones())
+        if (forest.is_leaf(z)) add(z, element_above(z, e.of_zone));
+    for (const PatchId p : mesh_.patches())
+        if (forest.is_leaf(p)) add(p, element_above(p, e.of_patch));
+    for (std::size_t k = 0; k < measure.size(); ++k)
+        if (measure[k] > 0.0) result[k] /= measure[k];
+    return result;
+}
+
 LitPatches LeafLight::lit_patches() {
     const Forest& forest = mesh_.forest();
     Fields lit;

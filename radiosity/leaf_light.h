@@ -37,6 +37,10 @@ class LeafLight {
     WeighedMean weighed(PatchId leaf, std::size_t band, const Affine& function) const;
     WeighedMean weighed(ZoneId leaf, std::size_t band, const Affine& function) const;
 
+    // The means of H^A of the leaves in each element above them ([element * bands + band])
+    // [W/m^2/sr].
+    std::vector<double> means_of_direct(const Elements& elements);
+
     // What patches reflect of direct light.
     LitPatches lit_patches();
 

@@ -11,7 +11,7 @@ namespace tyndall::radiosity {
 namespace {
 
 constexpr int sun_corners = 32;  // the disc's rim departs from a circle by 0.3 % of its radius
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 double share_at(const SpotLight& spot, double theta) {
     const double t = theta - 0.5 * spot.angle;

@@ -12,7 +12,7 @@
 namespace tyndall::radiosity {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // A node is looked at as one when its longest edge is below this share of its distance.
 constexpr double small_enough = 0.4;

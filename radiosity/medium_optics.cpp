@@ -44,6 +44,7 @@ class Varying {
             for (std::size_t b = 0; b < e_.bands; ++b) {
                 optics_.extinction[b] *= sampled[shapes == 1 ? 0 : b].first;
                 optics_.absorption[b] *= sampled[shapes == 1 ? 0 : b].first;
+                optics_.scattering[b] *= sampled[shapes == 1 ? 0 : b].first;
             }
             return;
         }
@@ -52,6 +53,7 @@ class Varying {
         for (std::size_t b = 0; b < e_.bands; ++b) {
             const double mean = this->mean(optics_.varying[b]);
             optics_.absorption[b] *= mean;
+            optics_.scattering[b] *= mean;
             optics_.extinction[b] *= mean;
         }
     }
@@ -127,6 +129,7 @@ class Varying {
 MediumOptics medium_optics(const Medium& medium, const Enclosure& enclosure) {
     MediumOptics result;
     result.name = medium.name;
+    result.phase = {medium.phase, medium.asymmetry};
     const bool heated = !medium.heat.empty() && !enclosure.settles();
     if (!medium.heat.empty() && enclosure.settles()) result.settled_heat = medium.heat[0];
     for (std::size_t b = 0; b < enclosure.bands; ++b) {
@@ -137,6 +140,7 @@ MediumOptics medium_optics(const Medium& medium, const Enclosure& enclosure) {
         const double albedo = extinction > 0.0 ? scattering / extinction : 0.0;
         result.extinction.push_back(extinction);
         result.absorption.push_back(absorption);
+        result.scattering.push_back(medium.extinction[b] * medium.albedo[b]);
         result.albedo.push_back(heated ? 1.0 : albedo);
         double emission = medium.emission.empty() ? 0.0 : (1.0 - albedo) * medium.emission[b];
         if (heated && extinction > 0.0)

@@ -74,10 +74,10 @@ void OpticalDepth::add_varying(std::uint32_t medium, Point x, Direction path, do
     if (medium == none) return;
     const MediumOptics& optics = enclosure_->media[medium];
     const double s = glm::length(path);
+    SegmentOfBands segment(x, path / s, s - beyond, s);
     for (std::size_t band = 0; band < depth.size(); ++band)
-        depth[band] += sign * (optics.varying.empty()
-                                   ? beyond * optics.extinction[band]
-                                   : optics.varying[band].depth(x, path / s, s - beyond, s));
+        depth[band] += sign * (optics.varying.empty() ? beyond * optics.extinction[band]
+                                                      : segment.depth(optics.varying[band]));
 }
 
 void OpticalDepth::operator()(Point x, TetId tet, Direction path, std::span<double> depth) const {

@@ -13,10 +13,11 @@ namespace tyndall::radiosity {
 // Adds the optical depth of the ray's segment within a base tet; one value a band [-].
 inline void add_depth(const Enclosure& enclosure, TetId tet, const mesh::Ray& ray, double t_in,
                       double t_out, std::span<double> depth) {
+    SegmentOfBands segment(ray.origin, ray.direction, t_in, t_out);
     for (std::size_t band = 0; band < depth.size(); ++band) {
         const ExtinctionBand* varying = enclosure.varying(tet, band);
-        depth[band] += varying ? varying->depth(ray.origin, ray.direction, t_in, t_out)
-                               : (t_out - t_in) * enclosure.extinction(tet, band);
+        depth[band] +=
+            varying ? segment.depth(*varying) : (t_out - t_in) * enclosure.extinction(tet, band);
     }
 }
 

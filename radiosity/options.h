@@ -127,11 +127,4 @@ struct SolveOptions {
     bool operator==(const SolveOptions&) const = default;
 };
 
-// The part of space a picture shows, for refinement where the picture needs it.
-struct View {
-    mesh::Point eye{0};                           // [m]
-    mesh::Direction forward{0}, right{0}, up{0};  // orthonormal
-    double tan_half_x = 1.0, tan_half_y = 1.0;
-};
-
 }  // namespace tyndall::radiosity

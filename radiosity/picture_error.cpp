@@ -106,10 +106,8 @@ Sums sums_of(const Solution& solution, const LeafErrors& errors, const View& vie
     std::vector<Sums> lines(down);
     tbb::parallel_for(0, down, [&](int y) {
         for (int x = 0; x < across; ++x) {
-            const double u = (2.0 * (x + 0.5) / across - 1.0) * view.tan_half_x;
-            const double v = (1.0 - 2.0 * (y + 0.5) / down) * view.tan_half_y;
-            mesh::Ray ray{view.eye, glm::normalize(view.forward + u * view.right + v * view.up)};
-            const mesh::Entry entry = mesh::entry_of(base, ray, eye);
+            mesh::Ray ray = view.ray(2.0 * (x + 0.5) / across - 1.0, 1.0 - 2.0 * (y + 0.5) / down);
+            const mesh::Entry entry = mesh::entry_near(base, ray, view.eye, eye);
             ray.origin += entry.distance * ray.direction;
             for (std::size_t b = first; b < end; ++b) {
                 if (entry.tet.valid() && !solution.enclosure->solid(entry.tet)) {

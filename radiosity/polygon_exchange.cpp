@@ -13,7 +13,7 @@
 namespace tyndall::radiosity {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // Gauss-Legendre on [0, 1], ten points.
 constexpr std::array<double, 10> nodes{

@@ -9,11 +9,13 @@
 #include <numbers>
 
 #include "mesh/input_error.h"
+#include "radiosity/open_places.h"
+#include "radiosity/temperatures.h"
 
 namespace tyndall::radiosity {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double relative_step = 1e-7;  // of the scene's diagonal: beyond rounding, below notice
 
 double diagonal(const mesh::BaseMesh& mesh) {
@@ -48,8 +50,8 @@ Point Probe::off_faces(Point x, TetId tet) const {
     return x + std::min(0.5, step_ / glm::length(inward)) * inward;
 }
 
-// Whether one of the tet's faces is a wall that x lies on and the normal looks away from.
-bool Probe::stands_on(Point x, Direction normal, TetId tet) const {
+// The face of the tet that is a wall, x lies on, and the normal looks away from; none.
+FacetId Probe::wall_at(Point x, Direction normal, TetId tet) const {
     const auto& mesh = solution_.enclosure->mesh;
     for (const FacetId facet : mesh.tet_facets[tet.value]) {
         if (!facet.valid() || mesh.facets[facet.value].opacity != mesh::Opacity::opaque) continue;
@@ -57,9 +59,9 @@ bool Probe::stands_on(Point x, Direction normal, TetId tet) const {
         Direction inward = mesh::normal(mesh, facet);
         if (wall.tets[0] != tet) inward = -inward;
         const double height = glm::dot(inward, x - mesh.points[wall.corners[0].value]);
-        if (glm::dot(inward, normal) > 0.99 && std::abs(height) < step_) return true;
+        if (glm::dot(inward, normal) > 0.99 && std::abs(height) < step_) return facet;
     }
-    return false;
+    return {};
 }
 
 // The tet that holds x, or the point a step from it along the normal (0: none). Where walls meet,
@@ -71,11 +73,12 @@ Probe::Place Probe::place(Point x, Direction normal) const {
     const TetId first = mesh::locate(e.mesh, stepped);
     std::vector<Place> places;
     const auto consider = [&](Point p, TetId tet) {
-        if (tet.valid() && !e.solid(tet)) places.push_back({off_faces(p, tet), tet});
+        if (tet.valid() && !e.solid(tet) && !covered(e, p))
+            places.push_back({off_faces(p, tet), tet});
     };
     consider(stepped, first);
     const bool free = normal == Direction(0.0);
-    if (!places.empty() && (free || stands_on(x, normal, first))) return places.front();
+    if (!places.empty() && (free || wall_at(x, normal, first).valid())) return places.front();
     for (int k = 0; k < 27; ++k) {
         Direction offset(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
         offset -= glm::dot(offset, normal) * normal;
@@ -83,7 +86,7 @@ Probe::Place Probe::place(Point x, Direction normal) const {
         consider(beside, mesh::locate(e.mesh, beside, first.valid() ? first : TetId(0)));
     }
     for (const Place& place : places)
-        if (stands_on(x, normal, place.tet)) return place;
+        if (wall_at(x, normal, place.tet).valid()) return place;
     if (!places.empty()) return places.front();
     throw mesh::InputError(fmt::format("the point [{}, {}, {}] {}. Move it{}.", x.x, x.y, x.z,
                                        first.valid() ? "lies in a solid" : "lies outside the scene",
@@ -105,6 +108,7 @@ ZoneValues Probe::in_space(Point x) const {
     const auto medium = e.medium_of(at.tet);
     const ZoneId leaf = solution_.forest.leaf_at(mesh::root_zone(at.tet), at.x);
     ZoneValues values;
+    Spectrum emitted, arriving;
     for (std::size_t b = 0; b < e.bands; ++b) {
         const double incident = direct[b] + indirect[b].mean;
         const double albedo = medium == none ? 0.0 : e.media[medium].albedo[b];
@@ -113,7 +117,11 @@ ZoneValues Probe::in_space(Point x) const {
         values.source_direct.push_back(albedo * direct[b]);
         values.incident.push_back(4.0 * pi * incident);
         values.incident_direct.push_back(4.0 * pi * direct[b]);
+        emitted.push_back(emission);
+        arriving.push_back(incident);
     }
+    if (e.thermal && medium != none)
+        values.temperature = temperature_of(e.spectral, e.media[medium], emitted, arriving);
     return values;
 }
 
@@ -129,10 +137,22 @@ PatchValues Probe::on_surface(Point x, Direction normal) const {
     Spectrum direct(solution_.enclosure->bands);
     light_.at_patch(at.x, normal, at.tet, direct);
     PatchValues values;
+    Spectrum arriving;
     for (std::size_t b = 0; b < direct.size(); ++b) {
-        values.irradiance.push_back(pi * (direct[b] + indirect[b].mean));
+        arriving.push_back(direct[b] + indirect[b].mean);
+        values.irradiance.push_back(pi * arriving[b]);
         values.irradiance_direct.push_back(pi * direct[b]);
     }
+    const Enclosure& e = *solution_.enclosure;
+    const FacetId wall = e.thermal ? wall_at(x, normal, at.tet) : FacetId{};
+    if (!wall.valid()) return values;
+    const Side face = e.mesh.facets[wall.value].tets[0] == at.tet ? Side::front : Side::back;
+    const auto side = e.facet_sides[wall.value][face == Side::back];
+    if (side == none) return values;
+    const PatchId leaf = solution_.forest.leaf_at(mesh::root_patch(wall, face), x);
+    Spectrum emitted;
+    for (std::size_t b = 0; b < e.bands; ++b) emitted.push_back(emission_of(solution_, leaf, b));
+    values.temperature = temperature_of(e.spectral, e.sides[side], emitted, arriving);
     return values;
 }
 

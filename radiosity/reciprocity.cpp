@@ -70,7 +70,7 @@ double reciprocity_error(const ExchangeAreas& areas, const Elements& elements) {
             const auto [j, share] = drawer.draw(areas.columns[k], hash_seed(i, k));
             const double value = areas.value(k);
             total += value;
-            const double forth = spread_entry(areas, i, j);
+            const double forth = areas.levels.empty() ? value : spread_entry(areas, i, j);
             if (!(forth > 0.0)) continue;
             const double back = spread_entry(areas, j, static_cast<std::uint32_t>(i));
             // Other columns of the row may stand for j too: this one answers for its part. A pair

@@ -56,7 +56,11 @@ RegularGrid::RegularGrid(std::array<std::size_t, 3> counts, Point low, Point hig
                         counts[0], counts[1], counts[2], values_.size()));
     const auto bad = std::find_if(values_.begin(), values_.end(),
                                   [](float v) { return !(v >= 0.0f) || !std::isfinite(v); });
-    if (bad == values_.end()) return;
+    if (bad == values_.end()) {
+        find_grain();
+        find_profile();
+        return;
+    }
     const auto place = static_cast<std::size_t>(bad - values_.begin());
     const std::size_t i = place % counts[0], j = place / counts[0] % counts[1],
                       k = place / counts[0] / counts[1];
@@ -84,61 +88,175 @@ double RegularGrid::at(Point x) const {
         for (int axis = 0; axis < 3; ++axis)
             if (x[axis] < low_[axis] || x[axis] > high_[axis]) return 0.0;
     Direction u = (x - low_) * per_metre_;
-    std::size_t first = 0, stride = 1;
+    if (profile_) return profile_->at(u[profile_->axis]);
+    std::size_t first = 0;
     for (int axis = 0; axis < 3; ++axis) {
         const double last = static_cast<double>(counts_[axis] - 2);
         const double cell = std::clamp(std::floor(u[axis]), 0.0, last);
         u[axis] = std::clamp(u[axis] - cell, 0.0, 1.0);
-        first += stride * static_cast<std::size_t>(cell);
-        stride *= counts_[axis];
+        first += stride(axis) * static_cast<std::size_t>(cell);
     }
     return std::max(0.0, in_cell(first, u));
 }
 
-double RegularGrid::integral(Point origin, Direction direction, double begin, double end) const {
-    if (beyond_ == BeyondGrid::nothing && !clip(low_, high_, origin, direction, begin, end))
-        return 0.0;
-    if (!(end > begin)) return 0.0;
+// Every second point is left out, and every second of those that are left, as long as the ones left
+// out lie on the line between their neighbours.
+void RegularGrid::find_grain() {
+    constexpr float tolerance = 0.01f;  // of the largest value
+    const float most = *std::max_element(values_.begin(), values_.end());
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::size_t last = counts_[axis] - 1, s = stride(axis);
+        const auto departs = [&](std::size_t step) {
+            for (std::size_t v = 0; v < values_.size(); ++v) {
+                const std::size_t at = v / s % counts_[axis], low = at - at % step;
+                const std::size_t high = std::min(low + step, last);
+                if (low == at || high == at) continue;
+                const float t = float(at - low) / float(high - low);
+                const float line =
+                    (1.0f - t) * values_[v - (at - low) * s] + t * values_[v + (high - at) * s];
+                if (std::abs(values_[v] - line) > tolerance * most) return true;
+            }
+            return false;
+        };
+        std::size_t step = 1;
+        while (step < last && !departs(2 * step)) step *= 2;
+        grain_[axis] = static_cast<double>(std::min(step, last)) / per_metre_[axis];
+    }
+}
+
+void RegularGrid::find_profile() {
+    std::optional<int> along;
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::size_t s = stride(axis);
+        bool same = true;
+        for (std::size_t v = 0; same && v < values_.size(); ++v)
+            same = v / s % counts_[axis] == 0 || values_[v] == values_[v - s];
+        if (same) continue;
+        if (along) return;
+        along = axis;
+    }
+    Profile profile{along.value_or(2), {}};
+    for (std::size_t k = 0; k < counts_[profile.axis]; ++k)
+        profile.values.push_back(values_[k * stride(profile.axis)]);
+    profile.sums.push_back(0.0);
+    for (std::size_t k = 1; k < profile.values.size(); ++k)
+        profile.sums.push_back(profile.sums.back() +
+                               0.5 * (profile.values[k - 1] + profile.values[k]));
+    profile_ = std::move(profile);
+}
+
+double RegularGrid::Profile::at(double z) const {
+    const double last = static_cast<double>(values.size() - 1);
+    const double inside = std::clamp(z, 0.0, last), cell = std::min(std::floor(inside), last - 1.0);
+    const auto k = static_cast<std::size_t>(cell);
+    return values[k] + (inside - cell) * (values[k + 1] - values[k]);
+}
+
+// Beyond the ends values stay what they are there.
+double RegularGrid::Profile::mean(double from, double to) const {
+    const double low = std::min(from, to), high = std::max(from, to);
+    if (!(high > low)) return at(low);
+    const double last = static_cast<double>(values.size() - 1);
+    const double a = std::clamp(low, 0.0, last), b = std::clamp(high, 0.0, last);
+    const double at_a = at(a), at_b = at(b);
+    const double cell_a = std::floor(a), cell_b = std::min(std::floor(b), last - 1.0);
+    double sum = std::max(0.0, std::min(high, 0.0) - low) * at_a +
+                 std::max(0.0, high - std::max(low, last)) * at_b;
+    if (cell_a >= cell_b) {
+        sum += 0.5 * (b - a) * (at_a + at_b);
+    } else {
+        const auto next = static_cast<std::size_t>(cell_a) + 1;
+        const auto end = static_cast<std::size_t>(cell_b);
+        sum += 0.5 * (cell_a + 1.0 - a) * (at_a + values[next]) + (sums[end] - sums[next]) +
+               0.5 * (b - cell_b) * (values[end] + at_b);
+    }
+    return sum / (high - low);
+}
+
+template <std::size_t N>
+std::array<double, N> RegularGrid::profile_parts(Point origin, Direction direction, double begin,
+                                                 const std::array<double, N>& ends) const {
+    const int axis = profile_->axis;
+    const double v = direction[axis] * per_metre_[axis];
+    const double p = (origin[axis] - low_[axis]) * per_metre_[axis];
+    std::array<double, N> sums;
+    for (std::size_t k = 0; k < N; ++k) {
+        sums[k] = std::max(0.0, ends[k] - begin) * profile_->mean(p + begin * v, p + ends[k] * v);
+        begin = ends[k];
+    }
+    return sums;
+}
+
+template <std::size_t N>
+std::array<double, N> RegularGrid::parts(Point origin, Direction direction, double begin,
+                                         std::array<double, N> ends) const {
+    if (beyond_ == BeyondGrid::nothing) {
+        double end = ends.back();
+        if (!clip(low_, high_, origin, direction, begin, end)) return {};
+        for (double& e : ends) e = std::clamp(e, begin, end);
+    }
+    if (!(ends.back() > begin)) return {};
+    if (profile_) return profile_parts(origin, direction, begin, ends);
     // In cells: p + t v; where the next plane is crossed along each axis.
     const Direction v = direction * per_metre_, p = (origin - low_) * per_metre_;
-    std::array<double, 3> cell, next, step;
-    std::array<std::ptrdiff_t, 3> stride{1, static_cast<std::ptrdiff_t>(counts_[0]),
-                                         static_cast<std::ptrdiff_t>(counts_[0] * counts_[1])};
-    std::ptrdiff_t first = 0;
+    // A cell before the first and one after the last stand for what is beyond.
+    std::array<double, 3> cell, within, next;
+    const std::array<std::size_t, 3> strides{stride(0), stride(1), stride(2)};
+    std::size_t first = 0;
     for (int axis = 0; axis < 3; ++axis) {
         const double last = static_cast<double>(counts_[axis] - 2);
-        cell[axis] = std::clamp(std::floor(p[axis] + begin * v[axis]), 0.0, last);
-        first += stride[axis] * static_cast<std::ptrdiff_t>(cell[axis]);
-        step[axis] = v[axis] > 0.0 ? 1.0 : -1.0;
+        cell[axis] = std::clamp(std::floor(p[axis] + begin * v[axis]), -1.0, last + 1.0);
+        within[axis] = std::clamp(cell[axis], 0.0, last);
+        first += strides[axis] * static_cast<std::size_t>(within[axis]);
         next[axis] = v[axis] == 0.0 ? infinity : (cell[axis] + (v[axis] > 0.0) - p[axis]) / v[axis];
     }
     const auto value = [&](double t) {
         Direction u;
         for (int axis = 0; axis < 3; ++axis)
-            u[axis] = std::clamp(p[axis] + t * v[axis] - cell[axis], 0.0, 1.0);
-        return in_cell(static_cast<std::size_t>(first), u);
+            u[axis] = std::clamp(p[axis] + t * v[axis] - within[axis], 0.0, 1.0);
+        return in_cell(first, u);
     };
-    double sum = 0.0, t = begin, at_t = value(t);
+    std::array<double, N> sums{};
+    std::size_t part = 0;
+    double t = begin, at_t = value(t);
     for (;;) {
         const int axis =
             next[0] < next[1] ? (next[0] < next[2] ? 0 : 2) : (next[1] < next[2] ? 1 : 2);
-        const double until = std::min(next[axis], end);
+        const double until = std::min(next[axis], ends[part]);
         if (until > t) {
             const double at_end = value(until);
-            sum += (until - t) / 6.0 * (at_t + 4.0 * value(0.5 * (t + until)) + at_end);
+            sums[part] += (until - t) / 6.0 * (at_t + 4.0 * value(0.5 * (t + until)) + at_end);
             t = until;
             at_t = at_end;
         }
-        if (next[axis] >= end) return std::max(0.0, sum);
-        const double there = cell[axis] + step[axis];
-        if (there < 0.0 || there > static_cast<double>(counts_[axis] - 2)) {
-            next[axis] = infinity;  // beyond, it stays what it is at the edge
+        if (next[axis] >= ends[part]) {
+            if (++part == N) break;
+            continue;
+        }
+        const double there = cell[axis] + (v[axis] > 0.0 ? 1.0 : -1.0);
+        const double last = static_cast<double>(counts_[axis] - 2);
+        if (there < -1.0 || there > last + 1.0) {
+            next[axis] = infinity;
             continue;
         }
         cell[axis] = there;
-        first += v[axis] > 0.0 ? stride[axis] : -stride[axis];
+        if (const double now = std::clamp(there, 0.0, last); now != within[axis]) {
+            first = v[axis] > 0.0 ? first + strides[axis] : first - strides[axis];
+            within[axis] = now;
+        }
         next[axis] = (there + (v[axis] > 0.0) - p[axis]) / v[axis];
     }
+    for (double& sum : sums) sum = std::max(0.0, sum);
+    return sums;
+}
+
+double RegularGrid::integral(Point origin, Direction direction, double begin, double end) const {
+    return parts<1>(origin, direction, begin, {end})[0];
+}
+
+std::array<double, 2> RegularGrid::halves(Point origin, Direction direction, double begin,
+                                          double end) const {
+    return parts<2>(origin, direction, begin, {0.5 * (begin + end), end});
 }
 
 }  // namespace tyndall::radiosity

@@ -26,43 +26,61 @@ struct FinishedRows {
     }
 };
 
-// make(element, scratch, finished) appends one row; scratch is a thread's own, copied from
-// `scratch` when the thread first needs one. A task makes `run` rows, a batch is 128 tasks. A row
-// must not depend on what its scratch was used for before: then rows are the same at any number of
-// threads.
+// To the sink, in order; the first is that of rows[0].
+inline void hand_over(const FinishedRows& finished, std::span<const ElementId> rows,
+                      const RowSink& sink) {
+    std::size_t first = 0;
+    for (std::size_t k = 0; k < finished.ends.size(); ++k) {
+        const std::size_t count = finished.ends[k] - first;
+        const auto of_row = [&](const auto& values) {
+            return std::span(values).subspan(std::min(first, values.size()),
+                                             values.empty() ? 0 : count);
+        };
+        sink(
+            {rows[k], of_row(finished.columns), of_row(finished.values), of_row(finished.moments)});
+        first += count;
+    }
+}
+
+// make(element, scratch, finished) appends one row to each of `finished`, one a sink, of which
+// there may be several where rows of several bands are made at once; scratch is a thread's own,
+// copied from `scratch` when the thread first needs one. A task makes `run` rows, a batch is 128
+// tasks. A row must not depend on what its scratch was used for before: then rows are the same at
+// any number of threads.
 template <class Scratch, class Make>
 void make_row_batches(const Discretization& discretization, std::span<const ElementId> rows,
-                      const ExchangeOptions& options, const RowSink& sink, std::size_t run,
-                      const Scratch& scratch, Make&& make) {
+                      const ExchangeOptions& options, std::span<const RowSink> sinks,
+                      std::size_t run, const Scratch& scratch, Make&& make) {
     tbb::enumerable_thread_specific<Scratch> scratches(scratch);
     const std::size_t batch = 128 * run;
-    std::vector<FinishedRows> finished(128);
+    std::vector<std::vector<FinishedRows>> finished(128, std::vector<FinishedRows>(sinks.size()));
     for (std::size_t begin = 0; begin < rows.size(); begin += batch) {
         const std::size_t end = std::min(begin + batch, rows.size());
         const std::size_t runs = (end - begin + run - 1) / run;
         tbb::parallel_for(std::size_t(0), runs, [&](std::size_t r) {
             auto& local = scratches.local();
-            finished[r].clear();
+            for (FinishedRows& of_sink : finished[r]) of_sink.clear();
             for (std::size_t k = begin + r * run; k < std::min(end, begin + (r + 1) * run); ++k)
-                make(rows[k], local, finished[r]);
+                make(rows[k], local, std::span<FinishedRows>(finished[r]));
         });
-        for (std::size_t r = 0; r < runs; ++r) {
-            std::size_t first = 0;
-            for (std::size_t k = 0; k < finished[r].ends.size(); ++k) {
-                const std::size_t count = finished[r].ends[k] - first;
-                const auto of_row = [&](const auto& values) {
-                    return std::span(values).subspan(std::min(first, values.size()),
-                                                     values.empty() ? 0 : count);
-                };
-                sink({rows[begin + r * run + k], of_row(finished[r].columns),
-                      of_row(finished[r].values), of_row(finished[r].moments)});
-                first += count;
-            }
-        }
+        for (std::size_t r = 0; r < runs; ++r)
+            for (std::size_t s = 0; s < sinks.size(); ++s)
+                hand_over(finished[r][s], rows.subspan(begin + r * run), sinks[s]);
         if (options.progress)
             options.progress({"exchange areas", double(end) / double(rows.size()),
                               discretization.elements.size(), 0.0});
     }
+}
+
+// The same with one sink; make(element, scratch, finished) appends one row to what a task makes.
+template <class Scratch, class Make>
+void make_row_batches(const Discretization& discretization, std::span<const ElementId> rows,
+                      const ExchangeOptions& options, const RowSink& sink, std::size_t run,
+                      const Scratch& scratch, Make&& make) {
+    make_row_batches(discretization, rows, options, std::span(&sink, 1), run, scratch,
+                     [&](ElementId id, Scratch& local, std::span<FinishedRows> finished) {
+                         make(id, local, finished[0]);
+                     });
 }
 
 }  // namespace tyndall::radiosity

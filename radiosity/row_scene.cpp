@@ -49,8 +49,8 @@ RowScene::Above RowScene::pack(const mesh::ClusterTree& tree,
     return above;
 }
 
-RowScene::RowScene(const Discretization& d, const RowLevels* levels, std::size_t band,
-                   double detail)
+RowScene::RowScene(const Discretization& d, const RowLevels* levels,
+                   std::span<const std::size_t> bands, double detail)
     : mesh_(d.enclosure.mesh),
       forest_(d.forest),
       centre_(0.5 * (mesh_.hull_min + mesh_.hull_max)),
@@ -65,13 +65,14 @@ RowScene::RowScene(const Discretization& d, const RowLevels* levels, std::size_t
         zones_above_ = pack(levels->clusters.zones, levels->of_zone_cluster);
         patches_above_ = pack(levels->clusters.patches, levels->of_patch_cluster);
     }
+    const bool varies = d.enclosure.varies();
     for (std::size_t t = 0; t < mesh_.tets.size(); ++t)
-        extinction_.push_back(tags.tets[t] == none
-                                  ? 0.0f
-                                  : static_cast<float>(d.enclosure.extinction(TetId(t), band)));
-    if (!d.enclosure.varies()) return;
-    for (std::size_t t = 0; t < mesh_.tets.size(); ++t)
-        varying_.push_back(tags.tets[t] == none ? nullptr : d.enclosure.varying(TetId(t), band));
+        for (const std::size_t band : bands) {
+            const bool element = tags.tets[t] != none;
+            extinction_.push_back(
+                element ? static_cast<float>(d.enclosure.extinction(TetId(t), band)) : 0.0f);
+            if (varies) varying_.push_back(element ? d.enclosure.varying(TetId(t), band) : nullptr);
+        }
 }
 
 std::size_t RowScene::memory() const {

@@ -2,6 +2,7 @@
 // the column of every node.
 #pragma once
 
+#include <array>
 #include <cmath>
 
 #include "radiosity/exchange.h"
@@ -19,16 +20,16 @@ class RowScene {
   public:
     // With levels a zone of size h may stand for the elements below it where h ≤ detail · t, at
     // distance t along the ray, and a patch where h ≤ patch_detail · detail · t. Without: the
-    // elements alone.
+    // elements alone. `bands`: whose extinctions one walk meets.
     // Cost: O(nodes). Later bisections of the forest are not seen.
-    RowScene(const Discretization& discretization, const RowLevels* levels, std::size_t band,
-             double detail);
+    RowScene(const Discretization& discretization, const RowLevels* levels,
+             std::span<const std::size_t> bands, double detail);
 
     const mesh::BaseMesh& mesh() const { return mesh_; }
     std::size_t memory() const;
 
   private:
-    template <class Deposit>
+    template <std::size_t Bands, class Deposit>
     friend class RowWalk;
     struct alignas(32) Node {
         float plane[4];        // normal and offset of an inner node's split
@@ -66,16 +67,21 @@ class RowScene {
     std::uint32_t outside_;
     Tree zones_, patches_;
     Above zones_above_, patches_above_;
-    std::vector<float> extinction_;  // of base tets, 0 where there is no element [1/m]
-    // Of base tets, null where it is uniform; empty where it is so everywhere.
+    // Of base tets, [tet * bands + band]: 0 where there is no element [1/m].
+    std::vector<float> extinction_;
+    // Likewise, null where it is uniform; empty where it is so everywhere.
     std::vector<const ExtinctionBand*> varying_;
 };
 
-// Follows rays. deposit(column, share, distance): of what a ray carries, 1 in all, `share` ends in
-// the column, at `distance` [m] from the ray's start in the mean.
-template <class Deposit>
+// Follows rays, in all bands at once: their way is the same. deposit(column, shares, distances): of
+// what a ray carries, 1 in all in each band, its `share` ends in the column, at its `distance` [m]
+// from the ray's start in the mean.
+template <std::size_t Bands, class Deposit>
 class RowWalk {
   public:
+    using Values = std::array<double, Bands>;
+
+    // The scene has as many bands.
     RowWalk(const RowScene& scene, Deposit deposit) : s_(scene), deposit_(std::move(deposit)) {}
 
     // Returns how the walk ended, for the count of lost rays. What is left at the ray's length, if
@@ -87,9 +93,9 @@ class RowWalk {
             origin_[axis] = static_cast<float>(from[axis]);
             direction_[axis] = static_cast<float>(ray.direction[axis]);
         }
-        transmittance_ = 1.0;
+        transmittance_.fill(1.0);
         column_ = none;
-        depth_ = 0.0f;
+        depth_.fill(0.0f);
         near_ = far_ = 0.0f;
         const auto end =
             mesh::walk(s_.mesh_, ray, start, [&](TetId tet, double t_in, double t_out) {
@@ -104,7 +110,9 @@ class RowWalk {
                              from + end.distance * ray.direction, static_cast<float>(end.distance));
         // The dark side of a body, from within rounding of its rim.
         if (column == none) column = s_.outside_;
-        deposit_(column, transmittance_, end.distance);
+        Values distances;
+        distances.fill(end.distance);
+        deposit_(column, transmittance_, distances);
         return end.arrival;
     }
 
@@ -127,10 +135,10 @@ class RowWalk {
 
     // Crosses a base tet: down the tree as a BSP, no deeper than the distance asks for.
     void cross(std::uint32_t tet, float t_in, float t_out) {
-        const float extinction = s_.extinction_[tet];
-        if (extinction == 0.0f) return;
+        const float* extinction = &s_.extinction_[tet * Bands];
+        if (std::all_of(extinction, extinction + Bands, [](float k) { return k == 0.0f; })) return;
         const float detail = s_.detail_;
-        varying_ = s_.varying_.empty() ? nullptr : s_.varying_[tet];
+        varying_ = s_.varying_.empty() ? nullptr : &s_.varying_[tet * Bands];
         if (const auto column = cluster_for(s_.zones_above_, tet, detail * t_in); column != none)
             return pass(column, extinction, t_in, t_out);
         struct Pending {
@@ -167,36 +175,48 @@ class RowWalk {
     }
 
     // Segments of one node on end are one deposit.
-    void pass(std::uint32_t column, float extinction, float t_in, float t_out) {
-        if (varying_) return pass_varying(column, t_in, t_out);
+    void pass(std::uint32_t column, const float* extinction, float t_in, float t_out) {
+        if (varying_ && *varying_) return pass_varying(column, t_in, t_out);
         if (column != column_) {
             flush();
             column_ = column;
             near_ = t_in;
         }
-        depth_ += extinction * (t_out - t_in);
+        for (std::size_t b = 0; b < Bands; ++b) depth_[b] += extinction[b] * (t_out - t_in);
         far_ = t_out;
     }
 
     void pass_varying(std::uint32_t column, double t_in, double t_out) {
         flush();
         column_ = none;
-        const auto w = varying_->weights(ray_->origin, ray_->direction, t_in, t_out);
-        const double lost = w.front + w.back;
-        if (!(lost > 0.0)) return;
-        deposit_(column, transmittance_ * lost, t_in + (t_out - t_in) * (w.back / lost));
-        transmittance_ -= transmittance_ * lost;
+        SegmentOfBands segment(ray_->origin, ray_->direction, t_in, t_out);
+        Values shares{}, distances;
+        bool any = false;
+        for (std::size_t b = 0; b < Bands; ++b) {
+            const auto& w = segment.weights(*varying_[b]);
+            const double lost = w.front + w.back;
+            distances[b] = t_in;
+            if (!(lost > 0.0)) continue;
+            any = true;
+            shares[b] = transmittance_[b] * lost;
+            distances[b] = t_in + (t_out - t_in) * (w.back / lost);
+            transmittance_[b] -= transmittance_[b] * lost;
+        }
+        if (any) deposit_(column, shares, distances);
     }
 
     void flush() {
-        if (depth_ > 0.0f) {
+        if (std::all_of(depth_.begin(), depth_.end(), [](float d) { return !(d > 0.0f); })) return;
+        Values shares, distances;
+        for (std::size_t b = 0; b < Bands; ++b) {
             // −expm1: the difference of two exponentials loses digits when thin.
-            const double depth = depth_, lost = opacity(depth);
-            deposit_(column_, transmittance_ * lost,
-                     near_ + (far_ - near_) * mean_place(depth, lost));
-            transmittance_ -= transmittance_ * lost;
+            const double depth = depth_[b], lost = opacity(depth);
+            shares[b] = transmittance_[b] * lost;
+            distances[b] = near_ + (far_ - near_) * mean_place(depth, lost);
+            transmittance_[b] -= transmittance_[b] * lost;
         }
-        depth_ = 0.0f;
+        deposit_(column_, shares, distances);
+        depth_.fill(0.0f);
     }
 
     static double opacity(double depth) {
@@ -232,11 +252,11 @@ class RowWalk {
     const RowScene& s_;
     Deposit deposit_;
     const mesh::Ray* ray_ = nullptr;
-    const ExtinctionBand* varying_ = nullptr;  // in the tet that is crossed
+    const ExtinctionBand* const* varying_ = nullptr;  // of every band, in the tet that is crossed
     float origin_[3]{}, direction_[3]{};
-    double transmittance_ = 1.0;
+    Values transmittance_{};
     std::uint32_t column_ = none;
-    float depth_ = 0.0f;              // optical, in column_ so far
+    std::array<float, Bands> depth_{};  // optical, in column_ so far
     float near_ = 0.0f, far_ = 0.0f;  // distances where column_ was entered, and reached so far [m]
 };
 

@@ -22,9 +22,16 @@ using Spectrum = std::vector<double>;
 
 enum class EmittingSides { front, both };
 
+// How a medium sends light on that it scatters.
+enum class PhaseKind { henyey_greenstein, rayleigh };
+
 struct Material {
     std::string name{};
     Spectrum reflectance{};  // Lambertian, 0 to 1 [-]
+    // Share of the light that is reflected about the mirror direction; with reflectance at most 1.
+    // Empty: none [-].
+    Spectrum specular{};
+    double roughness = 0.0;  // of the specular part: 0 a mirror, up to 1 [-]
     Spectrum emission{};     // radiance I_e; empty: none [W/m^2/sr]
     Spectrum power{};        // instead of emission: of the whole surface; empty: none [W]
     // Instead: net flux out of the wall, whatever falls on it; 0 is adiabatic. One value a band, or
@@ -59,7 +66,8 @@ struct Medium {
     Spectrum albedo{};  // Omega = kappa_s / kappa_t, 0 to 1 [-]
     // g of Henyey–Greenstein, −1 < g < 1; the solve uses reduced coefficients [-]
     double asymmetry = 0.0;
-    Spectrum emission{};  // J_e; empty: none [W/m^2/sr]
+    PhaseKind phase = PhaseKind::henyey_greenstein;  // rayleigh: asymmetry is 0
+    Spectrum emission{};                             // J_e; empty: none [W/m^2/sr]
     // Instead: source Q, 0 is radiative equilibrium. One value a band, or one for all as with
     // Material::flux; empty: none [W/m^3].
     Spectrum heat{};

@@ -9,7 +9,7 @@
 namespace tyndall::radiosity {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr std::size_t mixed_steps = 10;
 
 double volume_of(const Forest& forest, const Elements& e, std::size_t element) {

@@ -12,8 +12,6 @@
 namespace tyndall::radiosity {
 namespace {
 
-const std::string folder = enclosure_folder;
-
 template <class Tag, std::size_t N>
 std::vector<std::uint32_t> flat(const std::vector<std::array<mesh::Id<Tag>, N>>& rows) {
     std::vector<std::uint32_t> values;
@@ -33,18 +31,19 @@ std::vector<std::array<mesh::Id<Tag>, N>> rows_of(const std::vector<std::uint32_
 // An array of indices below `limit`, or none where that may be.
 std::vector<std::uint32_t> indices(const Hdf5Reader& file, const std::string& name,
                                    std::size_t columns, std::size_t limit, bool may_be_none) {
-    auto values = file.array<std::uint32_t>(folder + "/" + name, columns);
+    auto values = file.array<std::uint32_t>(enclosure_path + "/" + name, columns);
     for (const auto value : values)
         if (value >= limit && !(may_be_none && value == none))
-            file.fail(fmt::format("'{}/{}' points beyond its table ({} of {})", folder, name, value,
-                                  limit));
+            file.fail(fmt::format("'{}/{}' points beyond its table ({} of {})", enclosure_path,
+                                  name, value, limit));
     return values;
 }
 
 void expect_rows(const Hdf5Reader& file, const std::string& name, std::size_t rows,
                  std::size_t expected) {
     if (rows != expected)
-        file.fail(fmt::format("'{}/{}' has {} rows instead of {}", folder, name, rows, expected));
+        file.fail(
+            fmt::format("'{}/{}' has {} rows instead of {}", enclosure_path, name, rows, expected));
 }
 
 void write_facets(Hdf5Writer& file, const Enclosure& e) {
@@ -60,29 +59,29 @@ void write_facets(Hdf5Writer& file, const Enclosure& e) {
         opaque.push_back(facet.opacity == mesh::Opacity::opaque);
         for (const auto side : e.facet_sides[f]) sides.push_back(side);
     }
-    file.array(folder + "/facet_corners", flat(corners), 3);
-    file.array(folder + "/facet_tets", flat(tets), 2);
-    file.array(folder + "/facet_source", sources);
-    file.array(folder + "/facet_opaque", opaque);
-    file.array(folder + "/facet_sides", sides, 2);
+    file.array(enclosure_path + "/facet_corners", flat(corners), 3);
+    file.array(enclosure_path + "/facet_tets", flat(tets), 2);
+    file.array(enclosure_path + "/facet_source", sources);
+    file.array(enclosure_path + "/facet_opaque", opaque);
+    file.array(enclosure_path + "/facet_sides", sides, 2);
     std::vector<std::uint32_t> bodies;
     for (const mesh::Body& body : e.mesh.bodies)
         bodies.insert(bodies.end(), {body.first.value, body.end.value});
-    if (!bodies.empty()) file.array(folder + "/bodies", bodies, 2);
+    if (!bodies.empty()) file.array(enclosure_path + "/bodies", bodies, 2);
 }
 
 // Facets that stand in tets, the last ones; a scene without any has no such array.
 void read_bodies(const Hdf5Reader& file, Enclosure& e) {
-    if (!file.has(folder + "/bodies")) return;
+    if (!file.has(enclosure_path + "/bodies")) return;
     const auto ends = indices(file, "bodies", 2, e.mesh.facets.size() + 1, false);
     for (std::size_t k = 0; k < ends.size(); k += 2) {
         const std::uint32_t before = k == 0 ? ends[0] : ends[k - 1];
         if (ends[k] != before || ends[k] >= ends[k + 1])
-            file.fail(fmt::format("'{}/bodies' does not ascend", folder));
+            file.fail(fmt::format("'{}/bodies' does not ascend", enclosure_path));
         e.mesh.bodies.push_back(mesh::body_of(e.mesh, FacetId(ends[k]), FacetId(ends[k + 1])));
     }
     if (ends.empty() || ends.back() != e.mesh.facets.size())
-        file.fail(fmt::format("'{}/bodies' are not the last facets", folder));
+        file.fail(fmt::format("'{}/bodies' are not the last facets", enclosure_path));
 }
 
 void read_facets(const Hdf5Reader& file, Enclosure& e) {
@@ -90,8 +89,8 @@ void read_facets(const Hdf5Reader& file, Enclosure& e) {
         rows_of<mesh::VertexTag, 3>(indices(file, "facet_corners", 3, e.mesh.points.size(), false));
     const auto tets =
         rows_of<mesh::TetTag, 2>(indices(file, "facet_tets", 2, e.mesh.tets.size(), true));
-    const auto sources = file.array<std::uint32_t>(folder + "/facet_source");
-    const auto opaque = file.array<std::uint8_t>(folder + "/facet_opaque");
+    const auto sources = file.array<std::uint32_t>(enclosure_path + "/facet_source");
+    const auto opaque = file.array<std::uint8_t>(enclosure_path + "/facet_opaque");
     const auto sides = indices(file, "facet_sides", 2, e.sides.size(), true);
     expect_rows(file, "facet_tets", tets.size(), corners.size());
     expect_rows(file, "facet_source", sources.size(), corners.size());
@@ -106,7 +105,7 @@ void read_facets(const Hdf5Reader& file, Enclosure& e) {
 }
 
 void read_tets(const Hdf5Reader& file, Enclosure& e) {
-    const auto points = file.array<double>(folder + "/points", 3);
+    const auto points = file.array<double>(enclosure_path + "/points", 3);
     if (!std::all_of(points.begin(), points.end(), [](double v) { return std::isfinite(v); }))
         file.fail("a point of the mesh is not finite");
     for (std::size_t k = 0; k < points.size(); k += 3)
@@ -127,7 +126,7 @@ void read_regions(const Hdf5Reader& file, Enclosure& e) {
     expect_rows(file, "regions", e.mesh.regions.size(), count);
     e.region_medium = indices(file, "region_medium", 1, e.media.size(), true);
     expect_rows(file, "region_medium", e.region_medium.size(), e.mesh.region_count);
-    const auto solid = file.array<std::uint8_t>(folder + "/region_solid");
+    const auto solid = file.array<std::uint8_t>(enclosure_path + "/region_solid");
     expect_rows(file, "region_solid", solid.size(), e.mesh.region_count);
     e.region_solid.assign(solid.begin(), solid.end());
 }
@@ -135,20 +134,20 @@ void read_regions(const Hdf5Reader& file, Enclosure& e) {
 }  // namespace
 
 void write_enclosure(Hdf5Writer& file, const Enclosure& e) {
-    file.group(folder);
+    file.group(enclosure_path);
     write_optics(file, e);
     std::vector<double> points;
     for (const Point& p : e.mesh.points) points.insert(points.end(), {p.x, p.y, p.z});
-    file.array(folder + "/points", points, 3);
-    file.array(folder + "/tets", flat(e.mesh.tets), 4);
-    file.array(folder + "/neighbours", flat(e.mesh.neighbours), 4);
-    file.array(folder + "/tet_facets", flat(e.mesh.tet_facets), 4);
+    file.array(enclosure_path + "/points", points, 3);
+    file.array(enclosure_path + "/tets", flat(e.mesh.tets), 4);
+    file.array(enclosure_path + "/neighbours", flat(e.mesh.neighbours), 4);
+    file.array(enclosure_path + "/tet_facets", flat(e.mesh.tet_facets), 4);
     std::vector<std::uint32_t> regions;
     for (const RegionId region : e.mesh.regions) regions.push_back(region.value);
-    file.array(folder + "/regions", regions);
+    file.array(enclosure_path + "/regions", regions);
     write_facets(file, e);
-    file.array(folder + "/region_medium", e.region_medium);
-    file.array(folder + "/region_solid",
+    file.array(enclosure_path + "/region_medium", e.region_medium);
+    file.array(enclosure_path + "/region_solid",
                std::vector<std::uint8_t>(e.region_solid.begin(), e.region_solid.end()));
 }
 

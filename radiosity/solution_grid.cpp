@@ -9,7 +9,7 @@
 namespace tyndall::radiosity {
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr std::uint8_t vtk_triangle = 5, vtk_tetra = 10;
 
 // x = e + a H of an element, with what of it is known.

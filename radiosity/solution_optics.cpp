@@ -13,8 +13,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const std::string folder = enclosure_folder;
-
 Json vector_json(const glm::dvec3& v) {
     return Json::array({v.x, v.y, v.z});
 }
@@ -105,7 +103,9 @@ Json side_json(const SurfaceSide& side) {
             {"emission", side.emission},
             {"area", side.area},
             {"emissivity", side.emissivity},
-            {"settled_flux", optional_json(side.settled_flux)}};
+            {"settled_flux", optional_json(side.settled_flux)},
+            {"specular", side.specular},
+            {"roughness", side.roughness}};
 }
 
 // Files of earlier versions have no emissivity, nor what comes after it.
@@ -117,7 +117,9 @@ SurfaceSide side_from(const Json& json) {
             json.at("emission").get<Spectrum>(),
             json.at("area").get<double>(),
             json.value("emissivity", Spectrum()),
-            optional_of(json, "settled_flux")};
+            optional_of(json, "settled_flux"),
+            json.value("specular", Spectrum()),
+            json.value("roughness", 0.0)};
 }
 
 Json medium_json(const MediumOptics& medium) {
@@ -126,13 +128,23 @@ Json medium_json(const MediumOptics& medium) {
             {"albedo", medium.albedo},
             {"emission", medium.emission},
             {"absorption", medium.absorption},
-            {"settled_heat", optional_json(medium.settled_heat)}};
+            {"settled_heat", optional_json(medium.settled_heat)},
+            {"scattering", medium.scattering},
+            {"rayleigh", medium.phase.kind == PhaseKind::rayleigh},
+            {"asymmetry", medium.phase.asymmetry}};
 }
 
 MediumOptics medium_from(const Json& json) {
-    return {json.at("name").get<std::string>(),    json.at("extinction").get<Spectrum>(),
-            json.at("albedo").get<Spectrum>(),     json.at("emission").get<Spectrum>(),
-            json.at("absorption").get<Spectrum>(), optional_of(json, "settled_heat")};
+    return {json.at("name").get<std::string>(),
+            json.at("extinction").get<Spectrum>(),
+            json.at("albedo").get<Spectrum>(),
+            json.at("emission").get<Spectrum>(),
+            json.at("absorption").get<Spectrum>(),
+            optional_of(json, "settled_heat"),
+            {},
+            json.value("scattering", Spectrum()),
+            {json.value("rayleigh", false) ? PhaseKind::rayleigh : PhaseKind::henyey_greenstein,
+             json.value("asymmetry", 0.0)}};
 }
 
 Json optics_json(const Enclosure& e) {
@@ -179,10 +191,11 @@ bool spectra_fit(const Enclosure& e) {
     if (!model.grey_gases.gases.empty()) good = good && model.grey_gases.bands() == e.bands;
     for (const auto& side : e.sides)
         good = good && fits(side.reflectance) && fits(side.emission) &&
-               (side.emissivity.empty() || fits(side.emissivity));
+               (side.emissivity.empty() || fits(side.emissivity)) &&
+               (side.specular.empty() || fits(side.specular));
     for (const auto& m : e.media)
-        good =
-            good && fits(m.extinction) && fits(m.albedo) && fits(m.emission) && fits(m.absorption);
+        good = good && fits(m.extinction) && fits(m.albedo) && fits(m.emission) &&
+               fits(m.absorption) && (m.scattering.empty() || fits(m.scattering));
     for (const auto& light : e.lights)
         good = good && std::visit(
                            [&](const auto& source) {
@@ -214,26 +227,27 @@ void write_grids(Hdf5Writer& file, const Enclosure& e) {
                          {"low", vector_json(grids[g]->low())},
                          {"high", vector_json(grids[g]->high())},
                          {"beyond_is_edge", grids[g]->beyond() == BeyondGrid::edge}});
-        file.array(fmt::format("{}/extinction_{}", folder, g), grids[g]->values());
+        file.array(fmt::format("{}/extinction_{}", enclosure_path, g), grids[g]->values());
     }
-    file.text(folder + "/extinction", Json{{"media", json}, {"grids", boxes}}.dump());
+    file.text(enclosure_path + "/extinction", Json{{"media", json}, {"grids", boxes}}.dump());
 }
 
 std::shared_ptr<const RegularGrid> read_grid(const Hdf5Reader& file, const Json& box,
                                              std::size_t index) {
-    auto values = file.array<float>(fmt::format("{}/extinction_{}", folder, index));
+    auto values = file.array<float>(fmt::format("{}/extinction_{}", enclosure_path, index));
     try {
         return std::make_shared<const RegularGrid>(
             box.at("counts").get<std::array<std::size_t, 3>>(), vector_of(box.at("low")),
             vector_of(box.at("high")), std::move(values),
             box.at("beyond_is_edge").get<bool>() ? BeyondGrid::edge : BeyondGrid::nothing);
     } catch (const mesh::InputError& error) {
-        file.fail(fmt::format("'{}/extinction_{}' is damaged ({})", folder, index, error.what()));
+        file.fail(
+            fmt::format("'{}/extinction_{}' is damaged ({})", enclosure_path, index, error.what()));
     }
 }
 
 void read_grids(const Hdf5Reader& file, Enclosure& e) {
-    const std::string path = folder + "/extinction";
+    const std::string path = enclosure_path + "/extinction";
     if (!file.has(path)) return;  // it is uniform everywhere
     try {
         const Json json = Json::parse(file.text(path));
@@ -259,13 +273,13 @@ void read_grids(const Hdf5Reader& file, Enclosure& e) {
 }  // namespace
 
 void write_optics(Hdf5Writer& file, const Enclosure& e) {
-    file.text(folder + "/optics",
+    file.text(enclosure_path + "/optics",
               optics_json(e).dump(1, ' ', false, Json::error_handler_t::replace));
     if (e.varies()) write_grids(file, e);
 }
 
 void read_optics(const Hdf5Reader& file, Enclosure& e) {
-    const std::string path = folder + "/optics";
+    const std::string path = enclosure_path + "/optics";
     try {
         bind_optics(Json::parse(file.text(path)), e);
     } catch (const Json::exception& error) {

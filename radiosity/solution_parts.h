@@ -1,6 +1,8 @@
 // The parts that a solution file is made of.
 #pragma once
 
+#include <string>
+
 #include "radiosity/hdf5_file.h"
 #include "radiosity/solution.h"
 
@@ -10,7 +12,7 @@ namespace tyndall::radiosity {
 void write_grid(Hdf5Writer& file, const Solution& solution);
 
 // /tyndall/enclosure: mesh, optics, lights.
-inline constexpr const char* enclosure_folder = "/tyndall/enclosure";
+inline const std::string enclosure_path = "/tyndall/enclosure";
 void write_enclosure(Hdf5Writer& file, const Enclosure& enclosure);
 Enclosure read_enclosure(const Hdf5Reader& file);
 

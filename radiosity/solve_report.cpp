@@ -95,6 +95,7 @@ Report solve_report(const Enclosure& enclosure, const CoarseSolution& coarse,
     report.estimated_error = goal.total();
     for (std::size_t b = 0; b < enclosure.bands; ++b) {
         report.closure_error = std::max(report.closure_error, coarse.closure_error(b));
+        if (b > 0 && &coarse.areas(b) == &coarse.areas(0)) continue;  // the same rows
         // The other way round a NaN, "not known", would be lost.
         report.reciprocity_error = std::max(coarse.reciprocity_error(b), report.reciprocity_error);
         if (const auto& one = coarse.areas(b).smoothing)

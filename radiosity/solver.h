@@ -19,9 +19,10 @@ struct LinearProblem {
     const Elements& elements;
     const ExchangeAreas& areas;  // without rows where `rows` is given
     std::size_t band = 0;
-    std::span<const double> source;     // s [W/m^2/sr], one an element
-    RowMaker rows{};                    // for shots on the fly; of elements alone, without moments
-    std::span<const double> outside{};  // with `rows`: S_i,out; empty: the scene is closed [m^2]
+    std::span<const double> source;  // s [W/m^2/sr], one an element
+    RowMaker rows{};                 // for shots on the fly; of elements alone, without moments
+    // S_i,out [m^2]; empty: with `rows` the scene is closed, without they are looked up in `areas`.
+    std::span<const double> outside{};
 
     double capacity(std::size_t i) const { return elements.capacity[i * elements.bands + band]; }
     double scatter(std::size_t i) const { return elements.scatter[i * elements.bands + band]; }

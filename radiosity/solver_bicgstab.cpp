@@ -8,7 +8,7 @@ namespace {
 
 using Vector = Eigen::VectorXd;
 
-std::span<const double> values_of(const Vector& v) {
+std::span<const double> numbers_of(const Vector& v) {
     return {v.data(), static_cast<std::size_t>(v.size())};
 }
 
@@ -21,7 +21,7 @@ class BiConjugate {
           history_(problem, options),
           x_(Vector::Zero(static_cast<Eigen::Index>(problem.elements.size()))),
           r_(Eigen::Map<const Vector>(problem.source.data(), x_.size())) {
-        history_.note(0, values_of(x_), values_of(r_));
+        history_.note(0, numbers_of(x_), numbers_of(r_));
         restart();
     }
 
@@ -33,13 +33,13 @@ class BiConjugate {
                iterations_ < options_.iterations) {
             if (r_.norm() <= goal || !step()) {
                 // What the recurrence leaves is not quite what x leaves.
-                const auto left = left_of(problem_, values_of(x_));
+                const auto left = left_of(problem_, numbers_of(x_));
                 r_ = Eigen::Map<const Vector>(left.data(), x_.size());
                 if (r_.norm() <= goal || !(r_.norm() < (1.0 - 1e-3) * at_restart)) break;
                 at_restart = r_.norm();
                 restart();
             }
-            stopped = !history_.note(iterations_, values_of(x_), values_of(r_));
+            stopped = !history_.note(iterations_, numbers_of(x_), numbers_of(r_));
         }
         SolverResult result =
             finish(problem_, options_, {x_.begin(), x_.end()}, iterations_, history_);
@@ -56,7 +56,7 @@ class BiConjugate {
 
     Vector times(const Vector& y) {
         ++iterations_;
-        const auto reflected = reflect(problem_, values_of(y));
+        const auto reflected = reflect(problem_, numbers_of(y));
         return y - Eigen::Map<const Vector>(reflected.data(), y.size());
     }
 

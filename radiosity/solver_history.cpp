@@ -25,7 +25,7 @@ double ambient_estimate(const LinearProblem& problem, std::span<const double> un
 
 double outside_area(const LinearProblem& problem) {
     double sum = 0.0;
-    if (problem.rows) {
+    if (problem.rows || !problem.outside.empty()) {
         for (const double area : problem.outside) sum += area;
     } else {
         for (std::size_t i = 0; i < problem.elements.size(); ++i)

@@ -91,6 +91,21 @@ double block_rms(std::size_t width, std::size_t height, const Layer& picture,
     return sums.pixels > 0.0 ? std::sqrt(sums.squares / sums.pixels) : 0.0;
 }
 
+// Mean of |p − r| / (|r| + 0.01 mean |r|), over what is finite. Two black pictures do not differ.
+double mean_share(const Layer& picture, const Layer& reference) {
+    double floor = 0.0, sum = 0.0;
+    for (const float value : reference.values) floor += std::abs(double(value));
+    floor *= 0.01 / static_cast<double>(reference.values.size());
+    std::size_t count = 0;
+    for (std::size_t at = 0; at < picture.values.size(); ++at) {
+        if (!std::isfinite(picture.values[at])) continue;
+        const double of = reference.values[at], off = std::abs(double(picture.values[at]) - of);
+        sum += off > 0.0 ? off / (std::abs(of) + floor) : 0.0;
+        ++count;
+    }
+    return count > 0 ? sum / static_cast<double>(count) : 0.0;
+}
+
 // Mean over the channels of picture − reference.
 double pixel_difference(const Layer& picture, const Layer& reference, std::size_t pixel) {
     double sum = 0.0;
@@ -135,7 +150,27 @@ PictureError compare(std::size_t width, std::size_t height, const Layer& picture
     error.block16 = blocks(16);
     error.bias = relative(error.mean - error.reference_mean, error.reference_mean);
     error.max_error = relative(largest, error.reference_mean);
+    error.mape = mean_share(picture, reference);
     return error;
+}
+
+Layer region_of(std::size_t width, std::size_t height, const Layer& layer, const Region& region) {
+    if (region.width == 0 || region.height == 0 || region.left >= width ||
+        region.width > width - region.left || region.top >= height ||
+        region.height > height - region.top)
+        throw InputError(fmt::format(
+            "there are no {} × {} pixels from pixel ({}, {}) of a picture of {} × {}. Give a part "
+            "of it.",
+            region.width, region.height, region.left, region.top, width, height));
+    Layer part{layer.name, layer.channels, {}};
+    part.values.reserve(region.width * region.height * layer.channels);
+    for (std::size_t y = region.top; y < region.top + region.height; ++y) {
+        const auto row = layer.values.begin() +
+                         static_cast<std::ptrdiff_t>((y * width + region.left) * layer.channels);
+        part.values.insert(part.values.end(), row,
+                           row + static_cast<std::ptrdiff_t>(region.width * layer.channels));
+    }
+    return part;
 }
 
 DisplayImage difference_picture(std::size_t width, std::size_t height, const Layer& picture,

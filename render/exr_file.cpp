@@ -26,7 +26,7 @@ namespace {
 using mesh::InputError;
 
 constexpr const char* order_attribute = "layers";
-constexpr int max_side = 1 << 17;                         // [pixel]
+constexpr int max_image_side = 1 << 17;                   // [pixel]
 constexpr std::size_t max_values = std::size_t{1} << 30;  // of all channels: 4 GiB
 constexpr std::size_t max_ratio = 20000;                  // values a byte of file; ZIP reaches 300
 
@@ -261,7 +261,7 @@ Image decode_exr(std::string_view bytes) {
     if (bytes.substr(0, 4) != std::string_view("\x76\x2f\x31\x01", 4))
         throw InputError("it is not an EXR file");
     // The library's own check, before it allocates anything in proportion to the height.
-    Imf::Header::setMaxImageSize(max_side, max_side);
+    Imf::Header::setMaxImageSize(max_image_side, max_image_side);
     try {
         BytesIn stream(bytes);
         Imf::InputFile file(stream);

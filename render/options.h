@@ -15,13 +15,26 @@ struct RenderOptions {
     // patch's own linear function may be off by more than this share of the surfaces' mean
     // radiance.
     double direct_tolerance = 0.002;  // [-]
+    // Of methods that draw lots (two_pass, path_traced): go on, whatever `samples` says, until the
+    // picture's estimated error in blocks of 4 × 4 pixels, over its mean, is below this; 0: no goal
+    // [-].
+    double error = 0.0;
+    // Or until so much wall time is spent, whichever is first; 0: no limit [s].
+    double time = 0.0;
+    // two_pass: scatterings by chance, the last of which takes the solution's light; 0: what the
+    // media need (two_pass.h).
+    std::size_t scatterings = 0;
     std::uint64_t seed = 1;
     std::size_t threads = 0;  // 0: all
 
     bool operator==(const RenderOptions&) const = default;
 };
 
+// From exposed radiance to the screen's light (tone_map.h).
+enum class ToneCurve { shoulder, filmic, reinhard, linear };
+
 struct ToneMapOptions {
+    ToneCurve curve = ToneCurve::shoulder;
     double exposure = 0.0;        // stops added to the automatic exposure
     std::optional<double> white;  // radiance shown as white, instead of automatic [W/m^2/sr]
 

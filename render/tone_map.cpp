@@ -1,8 +1,10 @@
 #include "render/tone_map.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "mesh/input_error.h"
@@ -14,6 +16,7 @@ namespace {
 constexpr double middle_grey = 0.18;
 constexpr double linear_end = 0.6;   // a of the shoulder
 constexpr double white_input = 2.2;  // x that gives 1: a + 4 (1 − a), so that the slope continues
+constexpr double film_white = 11.2;  // of Hable's curve
 constexpr double lit_fraction = 1e-3;  // of the mean: darker pixels say nothing about the exposure
 
 // What the eye makes of a pixel. Rec. 709 weights for three channels.
@@ -82,6 +85,41 @@ double shoulder(double s) {
     return 1.0 - (1.0 - linear_end) * left * left * left * left;
 }
 
+double tone_curve(ToneCurve curve, double s) {
+    if (!(s > 0.0)) return 0.0;
+    if (s >= 1.0) return 1.0;
+    const double x = white_input * s;
+    const auto film = [](double v) {
+        return (v * (0.15 * v + 0.05) + 0.004) / (v * (0.15 * v + 0.5) + 0.06) - 1.0 / 15.0;
+    };
+    switch (curve) {
+        case ToneCurve::shoulder:
+            break;
+        case ToneCurve::filmic:
+            return film(film_white * s) / film(film_white);
+        case ToneCurve::reinhard:
+            return x * (1.0 + x / (white_input * white_input)) / (1.0 + x);
+        case ToneCurve::linear:
+            return std::min(x, 1.0);
+    }
+    return shoulder(s);
+}
+
+std::span<const std::string_view> tone_curve_names() {
+    static constexpr std::array<std::string_view, 4> names{"shoulder", "filmic", "reinhard",
+                                                           "linear"};
+    return names;
+}
+
+ToneCurve tone_curve_named(std::string_view name) {
+    const auto names = tone_curve_names();
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end())
+        throw mesh::InputError(fmt::format("there is no tone curve \"{}\". Choose one of {}.", name,
+                                           fmt::join(names, ", ")));
+    return static_cast<ToneCurve>(found - names.begin());
+}
+
 double srgb_encode(double light) {
     return light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1.0 / 2.4) - 0.055;
 }
@@ -100,7 +138,7 @@ DisplayImage tone_map(const Image& image, const ToneMapOptions& options, const s
                 const double value =
                     display.channels == 3 ? values[channel] : luminance(values, layer.channels);
                 display.values[pixel * display.channels + channel] =
-                    code(shoulder(value / white), threshold(x, y, channel));
+                    code(tone_curve(options.curve, value / white), threshold(x, y, channel));
             }
         }
     return display;

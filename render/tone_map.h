@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <string_view>
 #include <vector>
 
 #include "render/image.h"
@@ -30,6 +32,20 @@ double automatic_white(const Image& image, const Layer& layer);
 // Equation: with x = 2.2 s (so that the linear part has slope 1 in x): f = x for x ≤ a = 0.6, else
 //   f = 1 − (1−a) (1 − (x−a)/(2.2−a))^4: value and slope continue at x = a.
 double shoulder(double s);
+
+// Purpose: the screen's light, 0 to 1, for a radiance in units of the one shown as white, by one of
+//   the curves; each ends in 1 at 1, values above are 1, negative ones 0.
+// Equation: with x = 2.2 s: shoulder as above; linear min(x, 1), which cuts off what is brighter
+//   than 1/2.2 of white; reinhard x (1 + x/2.2²) / (1 + x); filmic h(5.09 x)/h(11.2) with h(x) =
+//   (x (0.15 x + 0.05) + 0.004) / (x (0.15 x + 0.5) + 0.06) − 1/15, which has a toe, too.
+// Source: Reinhard et al. (2002), equation 4; J. Hable (2010), Filmic tonemapping operators.
+double tone_curve(ToneCurve curve, double s);
+
+// Names of the curves, in their order.
+std::span<const std::string_view> tone_curve_names();
+
+// Errors: mesh::InputError that lists the names there are.
+ToneCurve tone_curve_named(std::string_view name);
 
 // Purpose: the sRGB code, 0 to 1, of the screen's light, 0 to 1. Source: IEC 61966-2-1.
 double srgb_encode(double light);

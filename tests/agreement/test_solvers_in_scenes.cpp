@@ -73,7 +73,7 @@ double difference(const std::vector<double>& a, const std::vector<double>& b) {
 
 }  // namespace
 
-TEST_CASE("All solvers agree in every example scene", "[solvers]") {
+TEST_CASE("All solvers agree in every example scene", "[solvers][long]") {
     const auto path = GENERATE(from_range(scene_files()));
     const auto file = cli::read_scene_file(path);
     const Enclosure enclosure = make_enclosure(file.scene);
@@ -100,7 +100,7 @@ TEST_CASE("All solvers agree in every example scene", "[solvers]") {
 }
 
 TEST_CASE("Shots on the fly agree within what rows are reciprocal to, in every example scene",
-          "[solvers]") {
+          "[solvers][long]") {
     const auto path = GENERATE(from_range(scene_files()));
     const auto file = cli::read_scene_file(path);
     const Enclosure enclosure = make_enclosure(file.scene);

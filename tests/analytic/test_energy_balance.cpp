@@ -16,7 +16,7 @@ radiosity::Report report_of(const std::string& scene, std::size_t rays, std::uin
     file.solve.rays = rays;
     file.solve.seed = seed;
     file.solve.gather_rays = 8;  // the balance is that of the coarse solution
-    file.solve.max_elements = 20000;
+    file.solve.max_elements = 8000;
     file.solve.refinement = refinement;
     return radiosity::solve_adaptively(
                std::make_shared<const radiosity::Enclosure>(radiosity::make_enclosure(file.scene)),
@@ -26,7 +26,7 @@ radiosity::Report report_of(const std::string& scene, std::size_t rays, std::uin
 
 }  // namespace
 
-TEST_CASE("Energy balances in every example scene at the default rays", "[balance]") {
+TEST_CASE("Energy balances in every example scene at the default rays", "[balance][long]") {
     for (const std::string scene : {"window_shafts.toml", "cornell_fog.toml", "sun_louvres.toml",
                                     "columns_obj.toml", "sharp_sun.toml", "slit_room.toml"}) {
         INFO(scene);
@@ -43,7 +43,7 @@ TEST_CASE("Energy balances in every example scene at the default rays", "[balanc
     }
 }
 
-TEST_CASE("The imbalance falls with the rays", "[balance]") {
+TEST_CASE("The imbalance falls with the rays", "[balance][long]") {
     const auto rms = [](std::size_t rays) {
         double square = 0.0;
         constexpr int seeds = 6;

@@ -14,11 +14,11 @@ using namespace tyndall;
 
 namespace {
 
-struct Scene {
+struct EstimatedScene {
     std::shared_ptr<const radiosity::Enclosure> enclosure;
     cli::SceneFile file;
 
-    explicit Scene(const std::string& path)
+    explicit EstimatedScene(const std::string& path)
         : file(cli::read_scene_file(std::string(TYNDALL_SOURCE_DIR "/") + path)) {
         enclosure =
             std::make_shared<const radiosity::Enclosure>(radiosity::make_enclosure(file.scene));
@@ -49,7 +49,7 @@ void check_ratio(double estimated, double measured) {
 }  // namespace
 
 TEST_CASE("Window shafts: the estimated error is that against a path tracer", "[estimate]") {
-    const Scene scene("examples/scenes/window_shafts.toml");
+    const EstimatedScene scene("examples/scenes/window_shafts.toml");
     // Its noise is 0.3 % a pixel: a fifth of what is measured here.
     const auto exact =
         render::read_image(TYNDALL_SOURCE_DIR "/tests/reference/window_shafts_80x60.pfm");
@@ -66,8 +66,9 @@ TEST_CASE("Window shafts: the estimated error is that against a path tracer", "[
     }
 }
 
-TEST_CASE("Shaft box: the solution's estimated error is that against a finer run", "[estimate]") {
-    const Scene scene("tests/scenes/shaft_box.toml");
+TEST_CASE("Shaft box: the solution's estimated error is that against a finer run",
+          "[estimate][long]") {
+    const EstimatedScene scene("tests/scenes/shaft_box.toml");
     auto options = scene.file.solve;
     options.error = 0.1;
     options.rays = options.gather_rays = 32;

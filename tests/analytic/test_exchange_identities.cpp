@@ -33,15 +33,15 @@ TEST_CASE("Walked rows and rows by cubes close, whatever the rays and pixels", "
     }
 }
 
-TEST_CASE("Pairs are reciprocal, and rows close as their entries are right", "[exchange]") {
+TEST_CASE("Pairs are reciprocal, and rows close as their entries are right", "[exchange][long]") {
     for (const auto& scene : scenes) {
         INFO(scene);
         const auto traced = table_of(scene, "ray_traced_pairs", {.settings = {.tolerance = 0.05}});
         CHECK(traced.reciprocity_error < 1e-14);
         CHECK(traced.closure_error < 0.05);
-        const auto exact = table_of(scene, "reference_pairs", {.settings = {.tolerance = 1e-3}});
+        const auto exact = table_of(scene, "reference_pairs", {.settings = {.tolerance = 5e-3}});
         CHECK(exact.reciprocity_error < 1e-14);
-        CHECK(exact.closure_error < 1e-3);
+        CHECK(exact.closure_error < 5e-3);
     }
 }
 

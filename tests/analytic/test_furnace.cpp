@@ -43,11 +43,11 @@ Furnace furnace(const std::filesystem::path& path) {
 }
 
 // Few elements and rays: what is tested is exact at any number.
-const SolveOptions quick{.refinement = Refinement::none,
-                         .direct_light = DirectLightMode::rows,
-                         .rays = 64,
-                         .gather_rays = 64,
-                         .solver_tolerance = 1e-9};
+const SolveOptions quick_furnace{.refinement = Refinement::none,
+                                 .direct_light = DirectLightMode::rows,
+                                 .rays = 64,
+                                 .gather_rays = 64,
+                                 .solver_tolerance = 1e-9};
 
 // Capacity-weighted root mean square of x − 1, over all bands.
 double rms_departure(const Elements& e, const std::vector<double>& radiance) {
@@ -137,7 +137,7 @@ TEST_CASE("Furnace: everything in rows is 1", "[furnace]") {
     for (const auto& path : scene_files()) {
         INFO(path.filename());
         const auto enclosure = std::make_shared<const Enclosure>(furnace(path).enclosure);
-        const Solution solution = solve_adaptively(enclosure, quick);
+        const Solution solution = solve_adaptively(enclosure, quick_furnace);
         // Rows are kept in single precision and close to 1e-7 at worst, 1e-9 in the mean; the
         // residual is 1e-9; 1/(1 − a) makes up to a hundred times that.
         CHECK(largest_departure(solution.coarse.elements, solution.coarse.radiance) < 1e-6);
@@ -164,7 +164,7 @@ TEST_CASE("Furnace: everything in rows is 1", "[furnace]") {
     }
 }
 
-TEST_CASE("Furnace: lamps split off", "[furnace]") {
+TEST_CASE("Furnace: lamps split off", "[furnace][long]") {
     for (const auto& path : scene_files()) {
         INFO(path.filename());
         const Furnace f = furnace(path);
@@ -187,11 +187,11 @@ TEST_CASE("Furnace: lamps split off", "[furnace]") {
     }
 }
 
-TEST_CASE("Furnace: all walls split off", "[furnace]") {
+TEST_CASE("Furnace: all walls split off", "[furnace][long]") {
     // Two scenes: as emitters the columns' hundreds of facets would take minutes.
     for (const std::string name : {"cornell_fog", "window_shafts"}) {
         INFO(name);
-        auto options = quick;
+        auto options = quick_furnace;
         options.direct_light = DirectLightMode::closed_form;
         const auto enclosure = std::make_shared<const Enclosure>(
             furnace(TYNDALL_SOURCE_DIR "/examples/scenes/" + name + ".toml").enclosure);

@@ -14,9 +14,9 @@ using namespace tyndall::radiosity;
 
 namespace {
 
-const SolveOptions quick{.error = 0.1, .max_elements = 3000, .rays = 64, .gather_rays = 64};
+const SolveOptions quick_solve{.error = 0.1, .max_elements = 3000, .rays = 64, .gather_rays = 64};
 
-Solution solve(const Scene& scene, const SolveOptions& options = quick) {
+Solution solve(const Scene& scene, const SolveOptions& options = quick_solve) {
     return solve_adaptively(std::make_shared<const Enclosure>(make_enclosure(scene)), options);
 }
 
@@ -39,7 +39,7 @@ double brightest(const Solution& solution, const Fields& fields, Keep&& keep) {
 
 }  // namespace
 
-TEST_CASE("Lengths times s with kappa over s leave radiances unchanged", "[invariance]") {
+TEST_CASE("Lengths times s with kappa over s leave radiances unchanged", "[invariance][long]") {
     // A power of two scales every number without rounding, so that the mesh, the rays and the
     // radiances are the same ones: any absolute length in the code would show.
     const Solution one = solve(test::slit_room(1.0)), four = solve(test::slit_room(4.0));

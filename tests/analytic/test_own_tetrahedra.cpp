@@ -47,7 +47,7 @@ TEST_CASE("Furnace on the user's own tetrahedra", "[furnace]") {
     }
 }
 
-TEST_CASE("A room on the user's own tetrahedra is as bright as on TetGen's") {
+TEST_CASE("A room on the user's own tetrahedra is as bright as on TetGen's", "[long]") {
     const auto solved = [](const std::string& override) {
         auto file = cli::read_scene_file(folder + "room.toml", {override});
         file.solve.refinement = Refinement::none;

@@ -13,7 +13,7 @@ using namespace tyndall::radiosity;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double black(double temperature) {
@@ -43,17 +43,17 @@ Scene cube(const Material& walls, const Material& floor) {
     return scene;
 }
 
-const SolveOptions quick{
+const SolveOptions quick_heat{
     .refinement = Refinement::none, .rays = 64, .gather_rays = 64, .solver_tolerance = 1e-9};
 
 // Nothing is sampled but rows, which close: what is 1 everywhere is so exactly.
 SolveOptions in_rows() {
-    SolveOptions options = quick;
+    SolveOptions options = quick_heat;
     options.direct_light = DirectLightMode::rows;
     return options;
 }
 
-Solution solve(const Scene& scene, const SolveOptions& options = quick) {
+Solution solve_heat(const Scene& scene, const SolveOptions& options = quick_heat) {
     return solve_adaptively(std::make_shared<const Enclosure>(make_enclosure(scene)), options);
 }
 
@@ -71,7 +71,7 @@ TEST_CASE("A wall of given flux among black walls of one temperature", "[heat]")
     // It sees nothing but σT1⁴/π, whatever its form: q = ε σ (T⁴ − T1⁴).
     for (const double flux : {0.0, 2e4, -1e4})
         for (const double reflectance : {0.0, 0.6}) {
-            const Solution s = solve(cube(hot(0.0, 1000.0), with_flux(reflectance, flux)));
+            const Solution s = solve_heat(cube(hot(0.0, 1000.0), with_flux(reflectance, flux)));
             const double fourth =
                 std::pow(1000.0, 4) + flux / ((1.0 - reflectance) * stefan_boltzmann);
             INFO("flux " << flux << ", reflectance " << reflectance);
@@ -89,7 +89,7 @@ TEST_CASE("A medium in equilibrium with its walls, or heated in a cold box", "[h
         Scene scene = cube(hot(0.3, 800.0), with_flux(0.5, 0.0));
         scene.media = {test::medium(2.0, albedo)};
         scene.media[0].heat = {0.0};
-        const Solution even = solve(scene, in_rows());
+        const Solution even = solve_heat(scene, in_rows());
         // One temperature all over: a furnace, exact to the single precision of rows.
         all_at(even, "haze", 800.0, 1e-6);
         all_at(even, "cube.floor+", 800.0, 1e-6);
@@ -99,7 +99,7 @@ TEST_CASE("A medium in equilibrium with its walls, or heated in a cold box", "[h
         scene.thermal = true;
         scene.media = {test::medium(2.0, albedo)};
         scene.media[0].heat = {5000.0};
-        const Solution heated = solve(scene);
+        const Solution heated = solve_heat(scene);
         CHECK(heated.report.flux_divergence.at("haze")[0] == Approx(5000.0).epsilon(1e-6));
         CHECK(heated.report.net_power.at("haze")[0] == Approx(5000.0).epsilon(1e-6));
         CHECK(std::abs(heated.report.energy_balance) < 0.02);  // 64 rays are not reciprocal
@@ -121,23 +121,24 @@ TEST_CASE("A thin heated medium is as hot as its own heat says", "[heat]") {
     scene.media = {test::medium(1e-4, 0.0)};
     scene.media[0].heat = {10.0};
     // κ times the mean chord of the cube, 2/3 m, is what does.
-    all_at(solve(scene), "haze", std::pow(10.0 / (4e-4 * stefan_boltzmann), 0.25), 1e-4);
+    all_at(solve_heat(scene), "haze", std::pow(10.0 / (4e-4 * stefan_boltzmann), 0.25), 1e-4);
 }
 
-TEST_CASE("A radiation shield halves the flux", "[heat]") {
+TEST_CASE("Each side of an adiabatic sheet has the temperature of what it sees", "[heat]") {
     // An adiabatic sheet across a black box, one half at T1, the other at T2: with black walls both
     // sides of it see one temperature each, and none lets anything through: the sides are two
     // walls.
     Scene scene = cube(hot(0.0, 900.0), hot(0.0, 900.0));
     scene.materials.push_back(with_flux(0.4, 0.0));
     test::add_surfaces(scene, "sheet", mesh::rectangle({0, 0, 0.5}, {1, 0, 0}, {0, 1, 0}), 2);
-    const Solution s = solve(scene);
+    const Solution s = solve_heat(scene);
     all_at(s, "sheet+", 900.0, 1e-4);
     all_at(s, "sheet-", 900.0, 1e-4);
 }
 
 TEST_CASE("A sink that asks for more than there is has no temperature, and says so", "[heat]") {
-    const Solution s = solve(cube(hot(0.0, 300.0), with_flux(0.0, -1000.0)));  // σT⁴ = 459 W/m²
+    const Solution s =
+        solve_heat(cube(hot(0.0, 300.0), with_flux(0.0, -1000.0)));  // σT⁴ = 459 W/m²
     CHECK(!s.report.temperature.contains("cube.floor+"));
     const auto& warnings = s.report.warnings;
     CHECK(std::ranges::any_of(warnings, [](const std::string& w) {
@@ -161,7 +162,7 @@ TEST_CASE("A selective wall of given flux in several bands", "[heat]") {
         Scene whole = cube(walls, floor);
         whole.bands = scene.bands;
         whole.spectral = scene.spectral;
-        const Solution s = solve(whole);
+        const Solution s = solve_heat(whole);
         double total = flux / pi;
         for (std::size_t b = 0; b < 3; ++b) total += emissivity[b] * walls.emission[b];
         const double expected = temperature_of(scene.spectral, emissivity, total);
@@ -204,7 +205,7 @@ TEST_CASE("Bands that are all alike settle as one grey band does", "[heat]") {
         result.media = {gas};
         return result;
     };
-    const Solution grey = solve(scene(1), in_rows()), three = solve(scene(3), in_rows());
+    const Solution grey = solve_heat(scene(1), in_rows()), three = solve_heat(scene(3), in_rows());
     REQUIRE(three.report.solver.converged);
     for (const auto& [name, power] : grey.report.net_power) {
         double sum = 0.0;

@@ -48,11 +48,11 @@ TEST_CASE("contour_integration: polygons in empty space", "[exchange]") {
     check_all("1_vacuum_view_factors", "contour_integration", 1e-11);
 }
 
-TEST_CASE("reference_pairs: boxes and their faces in a medium", "[exchange]") {
+TEST_CASE("reference_pairs: boxes and their faces in a medium", "[exchange][long]") {
     check_all("3a_box_dea_extinction", "reference_pairs", 1e-6);
 }
 
-TEST_CASE("reference_pairs: triangles and tetrahedra in a medium", "[exchange]") {
+TEST_CASE("reference_pairs: triangles and tetrahedra in a medium", "[exchange][long]") {
     check_all("3b_triangle_tet_dea_extinction", "reference_pairs", 1e-6);
 }
 

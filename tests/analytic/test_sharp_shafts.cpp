@@ -11,7 +11,7 @@ using namespace tyndall;
 
 namespace {
 
-struct Case {
+struct ShaftCase {
     std::shared_ptr<const radiosity::Enclosure> enclosure;
     render::Camera camera;
     render::RenderOptions render;
@@ -19,9 +19,9 @@ struct Case {
     render::Layer exact;
 };
 
-Case small(const std::string& scene) {
+ShaftCase small(const std::string& scene) {
     const auto file = cli::read_scene_file(TYNDALL_SOURCE_DIR + scene);
-    Case c;
+    ShaftCase c;
     c.enclosure =
         std::make_shared<const radiosity::Enclosure>(radiosity::make_enclosure(file.scene));
     c.camera = file.cameras.front();
@@ -40,7 +40,7 @@ struct Outcome {
     render::PictureError error;
 };
 
-Outcome outcome(const Case& c, radiosity::Refinement refinement, double goal,
+Outcome outcome(const ShaftCase& c, radiosity::Refinement refinement, double goal,
                 std::size_t max_elements) {
     auto options = c.solve;
     options.refinement = refinement;
@@ -59,8 +59,9 @@ Outcome outcome(const Case& c, radiosity::Refinement refinement, double goal,
 }  // namespace
 
 // 0.3 % of the direct and single-scattered picture; the steps of the reference leave 0.05 %.
-TEST_CASE("Sun without a diameter: aligned meshes need a thirtieth of the elements", "[picture]") {
-    const Case c = small("/examples/scenes/sharp_sun.toml");
+TEST_CASE("Sun without a diameter: aligned meshes need a thirtieth of the elements",
+          "[picture][long]") {
+    const ShaftCase c = small("/examples/scenes/sharp_sun.toml");
     const Outcome aligned = outcome(c, radiosity::Refinement::aligned, 0.005, 150000);
     CAPTURE(aligned.elements, aligned.error.rmse);
     CHECK(aligned.error.rmse < 0.003);
@@ -72,8 +73,8 @@ TEST_CASE("Sun without a diameter: aligned meshes need a thirtieth of the elemen
     CHECK(plain.error.rmse > 0.003);
 }
 
-TEST_CASE("A lamp of 2 cm: both sides of its penumbrae are edges of elements", "[picture]") {
-    const Case c = small("/tests/scenes/tiny_lamp.toml");
+TEST_CASE("A lamp of 2 cm: both sides of its penumbrae are edges of elements", "[picture][long]") {
+    const ShaftCase c = small("/tests/scenes/tiny_lamp.toml");
     const Outcome aligned = outcome(c, radiosity::Refinement::aligned, 0.03, 150000);
     CAPTURE(aligned.elements, aligned.error.rmse);
     CHECK(aligned.error.rmse < 0.003);

@@ -54,7 +54,7 @@ double incident(const Solution& solution, double width, double z) {
 
 }  // namespace
 
-TEST_CASE("Slabs: flux through optical thicknesses of 1 to 20", "[solution]") {
+TEST_CASE("Slabs: flux through optical thicknesses of 1 to 20", "[solution][long]") {
     for (const double thickness : {1.0, 5.0, 20.0}) {
         const double expected = flux(thickness);
         // Flux is a small difference in thick slabs: what is 1 % of it is less of the solution. An

@@ -99,7 +99,7 @@ void check_furnace(const std::string& name, Enclosure enclosure) {
 
 }  // namespace
 
-TEST_CASE("Smoothed: furnace, closure and reciprocity", "[smoothing][furnace]") {
+TEST_CASE("Smoothed: furnace, closure and reciprocity", "[smoothing][furnace][long]") {
     // The columns stand in the light's way; the louvres are an occluder of many facets.
     for (const std::string name :
          {"cornell_fog", "sharp_sun", "slit_room", "sun_louvres", "window_shafts", "columns_obj"})

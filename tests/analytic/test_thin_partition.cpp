@@ -57,7 +57,7 @@ Mean means(const Solution& s) {
 
 }  // namespace
 
-TEST_CASE("A 1 mm partition lit on one side stays dark on the other", "[leak]") {
+TEST_CASE("A 1 mm partition lit on one side stays dark on the other", "[leak][long]") {
     for (const bool box : {false, true}) {
         const auto enclosure = std::make_shared<const Enclosure>(make_enclosure(divided(box)));
         for (const Start start : {Start::single_zone, Start::base})

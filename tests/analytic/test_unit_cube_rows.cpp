@@ -46,7 +46,7 @@ TEST_CASE("Unit cube: V_kV_k, V_kS_j, S_iS_j of walked rows", "[exchange]") {
 }
 
 TEST_CASE("Unit cube: walked rows at the default rays and about the default number of elements",
-          "[exchange]") {
+          "[exchange][long]") {
     const auto file = test::reference("3a_box_dea_extinction");
     // 6000 tets and 1200 patches, 256 rays each. Root mean square over five extinctions: one
     // standard error is 0.3 % from wall to wall (51 k rays of which a fifth arrive), less for

@@ -15,7 +15,7 @@ using namespace tyndall::radiosity;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 using Function = std::function<double(Point)>;
 
 Medium varying(const Function& extinction, double albedo) {
@@ -29,11 +29,11 @@ std::shared_ptr<const Enclosure> enclosed(const Scene& scene) {
 }
 
 // Few elements and rays: what is tested is exact at any number.
-const SolveOptions quick{.refinement = Refinement::none,
-                         .direct_light = DirectLightMode::rows,
-                         .rays = 64,
-                         .gather_rays = 64,
-                         .solver_tolerance = 1e-9};
+const SolveOptions quick_walks{.refinement = Refinement::none,
+                               .direct_light = DirectLightMode::rows,
+                               .rays = 64,
+                               .gather_rays = 64,
+                               .solver_tolerance = 1e-9};
 
 double departure_from(const std::vector<double>& values, double expected) {
     double most = 0.0;
@@ -91,7 +91,7 @@ TEST_CASE("Varying media: the furnace and closure hold exactly", "[furnace]") {
             scene.media = {varying(function, 0.9)};
             Enclosure e = make_enclosure(scene);
             test::make_furnace(e);
-            SolveOptions options = quick;
+            SolveOptions options = quick_walks;
             options.row_detail = detail;
             const Solution solution =
                 solve_adaptively(std::make_shared<const Enclosure>(std::move(e)), options);
@@ -121,8 +121,8 @@ TEST_CASE("Varying media: a constant function is the number, to the bit", "[solu
         {std::make_shared<const RegularGrid>(std::array<std::size_t, 3>{4, 3, 5}, Point(-1, -1, -1),
                                              Point(4, 3, 3), std::vector<float>(60, 0.25f)),
          {}});
-    const Solution a = solve_adaptively(enclosed(number), quick);
-    const Solution b = solve_adaptively(enclosed(grid), quick);
+    const Solution a = solve_adaptively(enclosed(number), quick_walks);
+    const Solution b = solve_adaptively(enclosed(grid), quick_walks);
     REQUIRE(a.coarse.radiance.size() == b.coarse.radiance.size());
     const double most = *std::max_element(a.coarse.radiance.begin(), a.coarse.radiance.end());
     double departs = 0.0;
@@ -163,7 +163,7 @@ TEST_CASE("Varying media: between plates only the optical depth counts", "[excha
     }
 }
 
-TEST_CASE("Varying media: a slab in optical depths is the uniform slab", "[solution]") {
+TEST_CASE("Varying media: a slab in optical depths is the uniform slab", "[solution][long]") {
     // Radiative equilibrium between black plates, τ = 1, κ = 0.4 + 1.2 z, white sides 3 m apart:
     // the flux is the uniform slab's (tests/analytic/test_slabs.cpp).
     const auto flux = [](Medium medium) {
@@ -193,7 +193,7 @@ TEST_CASE("Varying media: lengths times s with κ/s leave radiances unchanged", 
         Scene scene = test::slit_room(s);
         scene.media = {varying(
             [s](Point p) { return (0.1 + 0.4 * std::exp(-p.z / s) + 0.1 * p.x / s) / s; }, 0.9)};
-        auto options = quick;
+        auto options = quick_walks;
         options.direct_light = DirectLightMode::closed_form;
         return solve_adaptively(enclosed(scene), options).coarse.radiance;
     };
@@ -227,7 +227,8 @@ TEST_CASE("Varying media: direct light through fog by height, against its closed
     }
 }
 
-TEST_CASE("Varying media: power balances, lit through an emitter and through rows", "[solution]") {
+TEST_CASE("Varying media: power balances, lit through an emitter and through rows",
+          "[solution][long]") {
     Scene scene = test::slit_room();
     scene.media = {
         varying([](Point p) { return 1.5 * std::max(0.0, 1.0 - p.z); }, 0.8)};  // ends at 1 m

@@ -15,7 +15,7 @@ using Json = nlohmann::json;
 namespace {
 
 // A small foggy room with a lamp and a sun, solved to little.
-const std::string room = R"(
+const std::string animated_room = R"(
 format = 1
 material = [ { name = "grey", reflectance = 0.5 },
              { name = "lamp", reflectance = 0.0, emission = 10.0 } ]
@@ -45,7 +45,7 @@ std::string done(const test::Workplace& place, const std::string& folder) {
 
 std::string values_of(const std::string& tracks, std::size_t frame) {
     const test::Workplace place("animation_values");
-    place.write("room.toml", room + "[animation]\nframes = 11\nfps = 10\n" + tracks);
+    place.write("room.toml", animated_room + "[animation]\nframes = 11\nfps = 10\n" + tracks);
     const auto file = cli::read_scene_file(place.path / "room.toml");
     std::string text;
     for (const auto& setting : cli::settings_of_frame(*file.animation, frame))
@@ -80,7 +80,7 @@ TEST_CASE("Tracks hold outside their keyframes and run straight, smooth or in st
 TEST_CASE("What changes decides what is done anew", "[animate]") {
     const test::Workplace place("animation_plan");
     const auto plan = [&](const std::string& tracks) {
-        place.write("room.toml", room + "[animation]\nframes = 6\n" + tracks);
+        place.write("room.toml", animated_room + "[animation]\nframes = 6\n" + tracks);
         const auto path = place.path / "room.toml";
         return cli::plan_animation(cli::read_frames(path, {}, cli::read_scene_file(path)));
     };
@@ -110,7 +110,7 @@ TEST_CASE("What changes decides what is done anew", "[animate]") {
 TEST_CASE("Frames that change in emission are sums, and equal full solves within the goal",
           "[animate]") {
     const test::Workplace place("animate");
-    place.write("room.toml", room + "[animation]\nframes = 6\nfps = 2\n" + lamp);
+    place.write("room.toml", animated_room + "[animation]\nframes = 6\nfps = 2\n" + lamp);
     const auto report = Json::parse(place.good("animate room.toml -o film --json"));
     CHECK(done(place, "film") ==
           "superposed superposed superposed superposed superposed superposed");
@@ -137,7 +137,7 @@ TEST_CASE("Frames that change in emission are sums, and equal full solves within
 TEST_CASE("Objects that move keep the room's light, and equal full solves within the goal",
           "[animate]") {
     const test::Workplace place("animate_moves");
-    std::string with_box = room;
+    std::string with_box = animated_room;
     const std::string surfaces = "surface = [ ";
     with_box.insert(with_box.find(surfaces) + surfaces.size(),
                     "{ name = \"box\", material = \"grey\", translate = [0, 0, 0], "
@@ -164,12 +164,18 @@ TEST_CASE("Objects that move keep the room's light, and equal full solves within
     CHECK(place.read("part/frames/0003.exr") == place.read("film/frames/0003.exr"));
     place.good("render film/solutions/0003.vtkhdf --quiet -o again.exr");
     CHECK(place.read("again.exr") == place.read("film/frames/0003.exr"));
+    for (const std::string method : {"projected_zones", "two_pass", "path_traced"}) {
+        const auto refused =
+            place.run("render film/solutions/0003.vtkhdf --quiet -o no.exr --method " + method);
+        CHECK(refused.code != 0);
+        CHECK(refused.err.find("moves through the mesh") != std::string::npos);
+    }
 }
 
 TEST_CASE("What cannot be a body is solved anew in every frame, and says why", "[animate]") {
     const test::Workplace place("animate_no_body");
     const auto reason = [&](const std::string& tracks, const std::string& more) {
-        place.write("room.toml", room + "[animation]\nframes = 2\n" + tracks);
+        place.write("room.toml", animated_room + "[animation]\nframes = 2\n" + tracks);
         const auto report =
             Json::parse(place.good("animate room.toml -o film --json --frames 1" + more));
         CHECK(done(place, "film") == "solved");
@@ -181,13 +187,15 @@ TEST_CASE("What cannot be a body is solved anew in every frame, and says why", "
     CHECK(reason(lamp_moves, "") == "what moves is solved anew in every frame, since it emits.");
     CHECK(reason(lamp_moves, " --set solve.row_detail=4").find("(row_detail)") !=
           std::string::npos);
+    CHECK(reason(lamp_moves, " --set render.method=two_pass") ==
+          "what moves is solved anew in every frame, since it is drawn by \"two_pass\".");
 }
 
 TEST_CASE("Frames are kept, made in parts, and made anew for another scene", "[animate]") {
     const test::Workplace place("animate_parts");
     const std::string camera =
         track("camera.main.eye", "frames = [0, 3]\nvalues = [[1.9, 0.1, 1.2], [1.5, 0.1, 1]]");
-    place.write("room.toml", room + "[animation]\nframes = 4\n" + camera);
+    place.write("room.toml", animated_room + "[animation]\nframes = 4\n" + camera);
     place.good("animate room.toml -o film --quiet --frames 0:1");
     CHECK(done(place, "film") == "solved kept");
     const auto first = place.read("film/frames/0000.png");
@@ -206,7 +214,7 @@ TEST_CASE("Frames are kept, made in parts, and made anew for another scene", "[a
     const auto wrong = place.run("animate room.toml -o film --frames 2:4");
     CHECK(wrong.code == 1);
     test::check_one_message(wrong);
-    place.write("still.toml", room);
+    place.write("still.toml", animated_room);
     const auto still = place.run("animate still.toml -o film");
     CHECK(still.code == 1);
     CHECK(still.err.find("has no [animation]") != std::string::npos);
@@ -215,7 +223,7 @@ TEST_CASE("Frames are kept, made in parts, and made anew for another scene", "[a
 TEST_CASE("A mesh that fails names its frame; other commands take the section", "[animate]") {
     const test::Workplace place("animate_fails");
     place.write("room.toml",
-                room + "[animation]\nframes = 2\n" +
+                animated_room + "[animation]\nframes = 2\n" +
                     track("medium.haze.at", "frames = [0, 1]\nvalues = [[1, 1, 1], [9, 9, 9]]"));
     const auto failed = place.run("animate room.toml -o film --quiet");
     CHECK(failed.code == 1);
@@ -228,7 +236,7 @@ TEST_CASE("A mesh that fails names its frame; other commands take the section", 
 TEST_CASE("Ctrl-C leaves whole frames only", "[animate]") {
     const test::Workplace place("animate_stops");
     place.write("room.toml",
-                room + "[animation]\nframes = 500\n" +
+                animated_room + "[animation]\nframes = 500\n" +
                     track("light.sun.sun.direction",
                           "frames = [0, 499]\nvalues = [[1, 0.2, -0.5], [1, -0.2, -0.5]]"));
     test::Running job(place.path, {"animate", "room.toml", "-o", "film", "--quiet"});

@@ -20,8 +20,8 @@ using test::check_one_message;
 namespace fs = std::filesystem;
 
 // A folder with pictures, in which the program is run.
-struct Workplace : test::Workplace {
-    Workplace() : test::Workplace("shell") {
+struct ShellWorkplace : test::Workplace {
+    ShellWorkplace() : test::Workplace("shell") {
         fs::create_directories(path / "out");
         render::Image image{8, 4, {{"beauty", 1, std::vector<float>(32, 2.0f)}}};
         render::write_image(path / "two.pfm", image);
@@ -41,7 +41,7 @@ struct Workplace : test::Workplace {
 }  // namespace
 
 TEST_CASE("help and version go to stdout, and are no failure") {
-    const Workplace place;
+    const ShellWorkplace place;
     const auto help = place.run("--help");
     CHECK(help.code == 0);
     CHECK_THAT(help.out, Contains("compare") && Contains("Examples"));
@@ -56,7 +56,7 @@ TEST_CASE("help and version go to stdout, and are no failure") {
 }
 
 TEST_CASE("wrong usage exits with 2 and says what was meant") {
-    const Workplace place;
+    const ShellWorkplace place;
     const auto bare = place.run("");
     CHECK(bare.code == 2);
     CHECK_THAT(bare.err, Contains("Usage"));
@@ -81,7 +81,7 @@ TEST_CASE("wrong usage exits with 2 and says what was meant") {
 }
 
 TEST_CASE("bad input exits with 1 and one message") {
-    const Workplace place;
+    const ShellWorkplace place;
     const std::string arguments =
         GENERATE(as<std::string>{}, "compare none.pfm two.pfm", "compare two.pfm small.pfm",
                  "compare . two.pfm", "compare out two.pfm --layer nope", "compare out.txt two.pfm",
@@ -94,7 +94,7 @@ TEST_CASE("bad input exits with 1 and one message") {
 }
 
 TEST_CASE("compare tells the errors, in words and as JSON") {
-    const Workplace place;
+    const ShellWorkplace place;
     const auto words = place.run("compare two.pfm two.pfm");
     CHECK(words.code == 0);
     CHECK(words.err.empty());
@@ -109,7 +109,7 @@ TEST_CASE("compare tells the errors, in words and as JSON") {
 }
 
 TEST_CASE("compare understands folders, layers and their sum") {
-    const Workplace place;
+    const ShellWorkplace place;
     CHECK(place.run("compare out two.pfm --max-rmse 0").code == 0);
     CHECK(place.run("compare out/ out/image.exr --max-rmse 0").code == 0);
     const auto sum = place.run("compare out two.pfm --layer direct_single --json");
@@ -119,7 +119,7 @@ TEST_CASE("compare understands folders, layers and their sum") {
 }
 
 TEST_CASE("compare judges: limits and values that are not finite") {
-    const Workplace place;
+    const ShellWorkplace place;
     CHECK(place.run("compare other.pfm two.pfm --max-block4 0.02").code == 0);
     const auto worse = place.run("compare other.pfm two.pfm --max-rmse 0.01 --max-bias 1e-3");
     CHECK(worse.code == 1);
@@ -132,7 +132,7 @@ TEST_CASE("compare judges: limits and values that are not finite") {
 }
 
 TEST_CASE("a reader of stdout that goes away is no failure; a full disk is one") {
-    const Workplace place;
+    const ShellWorkplace place;
     // The reader has ended before the program begins to write.
     const std::string line =
         "cd '" + place.path.string() +

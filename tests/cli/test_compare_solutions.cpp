@@ -8,9 +8,9 @@
 #include <sstream>
 
 #include "cli/compare_solutions.h"
-#include "cli/mesh_pictures.h"
 #include "cli/scene_file.h"
 #include "radiosity/adaptive.h"
+#include "render/mesh_pictures.h"
 #include "support/catch.h"
 #include "support/program.h"
 
@@ -98,7 +98,7 @@ TEST_CASE("What the leaves hold comes nearer to the probes as the mesh gets fine
 TEST_CASE("Pictures of a mesh show its edges") {
     const Folder folder;
     const auto solution = solved(folder, 0.6);
-    const auto slice = cli::mesh_slice(solution, {{0, 0.5, 0.5}, {0, 1, 0}});
+    const auto slice = render::field_slice(solution, {{0, 0.5, 0.5}, {0, 1, 0}}).image;
     CHECK(slice.width == 960);  // along the haze, 1 m × 1 m
     CHECK(slice.height == 960);
     std::set<std::array<std::uint8_t, 3>> colours;
@@ -107,7 +107,7 @@ TEST_CASE("Pictures of a mesh show its edges") {
     CHECK(colours.size() > 100);
     const auto file = cli::read_scene_file(folder.path / "scene.toml");
     const render::DisplayImage grey{16, 12, 1, std::vector<std::uint8_t>(16 * 12, 128)};
-    const auto overlay = cli::mesh_overlay(solution, file.cameras[0], grey);
+    const auto overlay = render::mesh_overlay(solution, file.cameras[0], grey);
     CHECK(overlay.width == 640);
     CHECK(overlay.height == 480);
     std::size_t edges = 0;

@@ -25,7 +25,7 @@ cli::SceneFile read(const std::string& text) {
     return cli::read_scene_file(folder / "scene.toml");
 }
 
-const std::string room = R"(
+const std::string heated_room = R"(
 [[surface]]
 name = "room"
 material = "wall"
@@ -40,18 +40,19 @@ std::string wall(const std::string& what) {
 
 TEST_CASE("A flux belongs to both sides, a value a band, or one for bands of wavelengths",
           "[heat]") {
-    const auto grey = read("format = 1\n" + wall("flux = -20.0") + room);
+    const auto grey = read("format = 1\n" + wall("flux = -20.0") + heated_room);
     CHECK(grey.scene.materials[0].flux == radiosity::Spectrum{-20.0});
     CHECK(grey.scene.materials[0].emits == radiosity::EmittingSides::both);
-    const auto each = read("format = 1\nbands = 2\n" + wall("flux = [1.0, 2.0]") + room);
+    const auto each = read("format = 1\nbands = 2\n" + wall("flux = [1.0, 2.0]") + heated_room);
     CHECK(each.scene.materials[0].flux == radiosity::Spectrum{1.0, 2.0});
-    const auto all = read("format = 1\nband_edges = [0, 3, inf]\n" + wall("flux = 5.0") + room);
+    const auto all =
+        read("format = 1\nband_edges = [0, 3, inf]\n" + wall("flux = 5.0") + heated_room);
     CHECK(all.scene.materials[0].flux == radiosity::Spectrum{5.0});
 }
 
 TEST_CASE("Band edges make bands, in micrometres, to infinity", "[heat]") {
     const auto file =
-        read("format = 1\nband_edges = [0, 2.5, inf]\n" + wall("temperature = 1000") + room);
+        read("format = 1\nband_edges = [0, 2.5, inf]\n" + wall("temperature = 1000") + heated_room);
     CHECK(file.scene.bands == 2);
     const auto& edges = file.scene.spectral.band_edges;
     REQUIRE(edges.size() == 3);
@@ -82,7 +83,7 @@ TEST_CASE("Grey gases: the files of the examples, and a medium of them beside so
     }
     const auto file =
         read("format = 1\ngrey_gases = \"" + (gases / "smith_1982_wet.toml").string() + "\"\n" +
-             wall("temperature = 500") + room + R"(
+             wall("temperature = 500") + heated_room + R"(
 [[medium]]
 name = "flame"
 partial_pressure = 20265
@@ -105,7 +106,8 @@ temperature = 1500
 }
 
 TEST_CASE("Temperatures, net fluxes and settled emission survive files", "[heat]") {
-    const auto file = read("format = 1\nband_edges = [0, 4, inf]\n" + wall("flux = 0") + room + R"(
+    const auto file =
+        read("format = 1\nband_edges = [0, 4, inf]\n" + wall("flux = 0") + heated_room + R"(
 [[material]]
 name = "hot"
 reflectance = 0.1

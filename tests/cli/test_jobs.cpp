@@ -16,8 +16,8 @@ namespace {
 using namespace tyndall;
 namespace fs = std::filesystem;
 
-struct Workplace : test::Workplace {
-    Workplace() : test::Workplace("jobs") { write("box.toml", test::foggy_box); }
+struct JobsWorkplace : test::Workplace {
+    JobsWorkplace() : test::Workplace("jobs") { write("box.toml", test::foggy_box); }
 };
 
 std::vector<std::vector<double>> numbers(const std::string& csv) {
@@ -37,7 +37,7 @@ std::vector<std::vector<double>> numbers(const std::string& csv) {
 }  // namespace
 
 TEST_CASE("run writes a solution, pictures and a report") {
-    const Workplace place;
+    const JobsWorkplace place;
     const auto summary = place.good("run box.toml -o deep/out");
     CHECK_THAT(summary, Contains("patches") && Contains("wrote") && Contains("report.json"));
     for (const char* name : {"solution.vtkhdf", "image.exr", "image.png", "report.json"})
@@ -72,7 +72,7 @@ TEST_CASE("run writes a solution, pictures and a report") {
 }
 
 TEST_CASE("a solution file alone makes the run's picture again, and others") {
-    const Workplace place;
+    const JobsWorkplace place;
     place.good("run box.toml -o out --quiet --seed 7");
     place.good("render out/ -o again.exr");
     CHECK(place.read("again.exr") == place.read("out/image.exr"));
@@ -97,7 +97,7 @@ TEST_CASE("a solution file alone makes the run's picture again, and others") {
 }
 
 TEST_CASE("solve makes no picture; its file is the same at any thread count") {
-    const Workplace place;
+    const JobsWorkplace place;
     const auto report =
         nlohmann::json::parse(place.good("solve box.toml -o one --threads 1 --json"));
     CHECK(report["threads"] == 1);
@@ -110,7 +110,7 @@ TEST_CASE("solve makes no picture; its file is the same at any thread count") {
 }
 
 TEST_CASE("a scene without a camera gives no picture, and says so") {
-    const Workplace place;
+    const JobsWorkplace place;
     std::string text = test::foggy_box;
     const auto begin = text.find("[[camera]]");
     text.erase(begin, text.find("[solve]") - begin);
@@ -124,7 +124,7 @@ TEST_CASE("a scene without a camera gives no picture, and says so") {
 }
 
 TEST_CASE("probe writes the points in order, with values") {
-    const Workplace place;
+    const JobsWorkplace place;
     place.good("solve box.toml -o out --quiet");
     place.write("points.csv",
                 "\xef\xbb\xbfx, y ,z\r\n1,1,1.5\r\n\r\n# low\n0.25,1e-1,+0.5\n1,1,1.5");
@@ -158,7 +158,7 @@ TEST_CASE("probe writes the points in order, with values") {
 }
 
 TEST_CASE("three bands have a column and a channel each") {
-    const Workplace place;
+    const JobsWorkplace place;
     place.good("run box.toml -o out --quiet --set bands=3 --set material.lamp.emission=[10,5,0]");
     place.write("points.csv", "1,1,1\n");
     const auto csv = place.good("probe out --points points.csv --rays 64");
@@ -175,7 +175,7 @@ TEST_CASE("three bands have a column and a channel each") {
 }
 
 TEST_CASE("an interrupt leaves a solution that can be used") {
-    const Workplace place;
+    const JobsWorkplace place;
     // Enough to do for many seconds. --foreground: one signal, to the program alone; two would end
     // it.
     const auto outcome = place.run(
@@ -191,7 +191,7 @@ TEST_CASE("an interrupt leaves a solution that can be used") {
 }
 
 TEST_CASE("check tells about a scene and writes nothing") {
-    const Workplace place;
+    const JobsWorkplace place;
     const auto text = place.good("check box.toml");
     CHECK_THAT(text, Contains("sound") && Contains("fog 8 m3") && Contains("ceiling_lamp+") &&
                          Contains("no light leaves"));
@@ -205,7 +205,7 @@ TEST_CASE("check tells about a scene and writes nothing") {
 }
 
 TEST_CASE("what cannot be done exits with 1 and one line that says where and what to do") {
-    const Workplace place;
+    const JobsWorkplace place;
     place.good("solve box.toml -o out --quiet");
     place.write("file", "");
     place.write("bad.csv", "x,y,z\n1,1,1\n\n1,zwei,1\n");
@@ -252,7 +252,7 @@ TEST_CASE("what cannot be done exits with 1 and one line that says where and wha
 }
 
 TEST_CASE("wrong usage of the jobs exits with 2") {
-    const Workplace place;
+    const JobsWorkplace place;
     for (const char* arguments :
          {"run box.toml", "run -o out", "solve box.toml --out x", "render out", "probe out",
           "check", "check box.toml more", "render out -o a.exr --samples 0",
@@ -263,7 +263,7 @@ TEST_CASE("wrong usage of the jobs exits with 2") {
 }
 
 TEST_CASE("A run goes on from its last pass; a pass is replayed as it is") {
-    const Workplace place;
+    const JobsWorkplace place;
     const auto elements = [&](const std::string& arguments) {
         const auto report = nlohmann::json::parse(place.good(arguments + " --json"));
         return report["patches"].get<int>() + report["zones"].get<int>();

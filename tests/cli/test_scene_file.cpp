@@ -24,7 +24,7 @@ name = "plaster"
 reflectance = 0.5
 )";
 
-const std::string room = R"(
+const std::string grey_room = R"(
 [[surface]]
 name = "room"
 material = "plaster"
@@ -132,14 +132,14 @@ TEST_CASE("A scalar holds for all bands") {
 name = "red"
 reflectance = [0.7, 0.1, 0.05]
 exitance = [3.0, 2.0, 1.0]
-)" + room);
+)" + grey_room);
     CHECK(file.scene.materials[0].reflectance == radiosity::Spectrum{0.5, 0.5, 0.5});
     CHECK(file.scene.materials[1].reflectance == radiosity::Spectrum{0.7, 0.1, 0.05});
     CHECK(file.scene.materials[1].emission[0] == Approx(3.0 / std::numbers::pi));
 }
 
 TEST_CASE("Temperature becomes radiance: (1 - rho) sigma T^4 / pi, from both sides") {
-    const auto file = read("format = 1\n" + material + "temperature = 1000.0\n" + room + R"(
+    const auto file = read("format = 1\n" + material + "temperature = 1000.0\n" + grey_room + R"(
 [[medium]]
 name = "gas"
 extinction = 0.5
@@ -152,7 +152,7 @@ temperature = 1000.0
 }
 
 TEST_CASE("Lights: degrees become radians, directions unit length, a target an axis") {
-    const auto file = read("format = 1\n" + material + room + R"(
+    const auto file = read("format = 1\n" + material + grey_room + R"(
 [[light]]
 name = "sun"
 sun = { direction = [0, 3, -4], irradiance = 800, angle = 0.53 }
@@ -208,7 +208,7 @@ scale = [-1, 1, 1]
 }
 
 TEST_CASE("A surface without material is an interface") {
-    const auto file = read("format = 1\n" + material + room + R"(
+    const auto file = read("format = 1\n" + material + grey_room + R"(
 [[surface]]
 name = "fog_bank"
 box = { min = [1, 1, 0.5], max = [2, 2, 1] }
@@ -219,7 +219,7 @@ box = { min = [1, 1, 0.5], max = [2, 2, 1] }
 }
 
 TEST_CASE("Settings are read; a size may have a unit; the seed is the picture's too") {
-    const auto file = read("format = 1\n" + material + room + R"(
+    const auto file = read("format = 1\n" + material + grey_room + R"(
 [solve]
 error = 0.003
 refinement = "uniform"
@@ -244,7 +244,7 @@ white = 12
 }
 
 TEST_CASE("the flag --set edits any key; its value is TOML, or a word") {
-    const std::string text = "format = 1\n" + material + room + R"(
+    const std::string text = "format = 1\n" + material + grey_room + R"(
 [[light]]
 name = "sun"
 sun = { direction = [0, 0, -1], irradiance = 800 }
@@ -283,7 +283,7 @@ rectangle = { corner = [0, 0, 0], u = [4, 0, 0], v = [0, 3, 0], openings = [ { n
 }
 
 TEST_CASE("A broken --set is refused, with itself as the place") {
-    const std::string text = "format = 1\n" + material + room;
+    const std::string text = "format = 1\n" + material + grey_room;
     struct Case {
         std::string override, part;
     };
@@ -323,7 +323,7 @@ TEST_CASE("A broken --set is refused, with itself as the place") {
 }
 
 TEST_CASE("Indicators are chosen by name, from the file or by --set") {
-    const std::string text = "format = 1\n" + material + room;
+    const std::string text = "format = 1\n" + material + grey_room;
     CHECK(read(text).solve.indicators ==
           std::vector<std::string>{"direct", "shadow_boundary", "indirect"});
     const auto file = read(text, {"solve.indicators=[\"jump\", \"optical_thickness\"]",
@@ -349,7 +349,7 @@ TEST_CASE("The reference of keys has every table and no empty type") {
 }
 
 TEST_CASE("The defaults that the reference names are those of the structs") {
-    const auto plain = read("format = 1\n" + material + room);
+    const auto plain = read("format = 1\n" + material + grey_room);
     std::istringstream text(cli::scene_file_reference());
     std::string line, table;
     std::size_t checked = 0;
@@ -368,8 +368,8 @@ TEST_CASE("The defaults that the reference names are those of the structs") {
         const bool follows_another = fallback == "solve.seed";
         if (in_scene || follows_another) continue;
         CAPTURE(table, key, fallback);
-        const auto file =
-            read("format = 1\n" + material + room + table + "\n" + key + " = " + fallback + "\n");
+        const auto file = read("format = 1\n" + material + grey_room + table + "\n" + key + " = " +
+                               fallback + "\n");
         CHECK(file.solve == plain.solve);
         CHECK(file.render == plain.render);
         CHECK(file.tone_map == plain.tone_map);

@@ -12,8 +12,8 @@ using namespace tyndall;
 
 namespace {
 
-struct Workplace : test::Workplace {
-    Workplace() : test::Workplace("solvers") { write("box.toml", test::foggy_box); }
+struct SolverWorkplace : test::Workplace {
+    SolverWorkplace() : test::Workplace("solvers") { write("box.toml", test::foggy_box); }
 
     nlohmann::json solved(const std::string& settings) const {
         return nlohmann::json::parse(
@@ -24,7 +24,7 @@ struct Workplace : test::Workplace {
 }  // namespace
 
 TEST_CASE("Every solver gives one report") {
-    const Workplace place;
+    const SolverWorkplace place;
     const auto reference = place.solved("");
     CHECK(reference.at("solver").at("method") == "gmres");
     for (const auto& [name, method] : {std::pair{"krylov", "gmres"},
@@ -54,7 +54,7 @@ TEST_CASE("Every solver gives one report") {
 }
 
 TEST_CASE("Shots on the fly: no rows, the same light") {
-    const Workplace place;
+    const SolverWorkplace place;
     const auto kept = place.solved("--set solve.radiance=constant --set solve.rays=64");
     const auto fly = place.solved(
         "--set solve.rays=64 --set solve.solver=progressive_refinement "
@@ -78,7 +78,7 @@ TEST_CASE("Shots on the fly: no rows, the same light") {
 }
 
 TEST_CASE("A solver that ends too early says so in the report") {
-    const Workplace place;
+    const SolverWorkplace place;
     const auto report = place.solved("--set solve.solver=jacobi --set solve.solver_iterations=2");
     CHECK(report.at("solver").at("converged") == false);
     CHECK(report.at("solver").at("iterations") == 2);
@@ -91,7 +91,7 @@ TEST_CASE("A solver that ends too early says so in the report") {
 }
 
 TEST_CASE("The direct solver refuses what it would take gigabytes for, before any row is made") {
-    const Workplace place;
+    const SolverWorkplace place;
     const auto outcome = place.run(
         "solve box.toml -o out --set solve.solver=direct --set solve.element_size=0.2 "
         "--set solve.max_elements=1000000 --set solve.rays=100000");
@@ -100,7 +100,7 @@ TEST_CASE("The direct solver refuses what it would take gigabytes for, before an
 }
 
 TEST_CASE("A study of solvers draws their histories") {
-    const Workplace place;
+    const SolverWorkplace place;
     place.write("study.toml", R"(scene = "box.toml"
 reference = { "solve.solver" = "direct" }
 [set]

@@ -2,7 +2,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "cli/mesh_pictures.h"
 #include "cli/probe_values_file.h"
 #include "cli/study_histories.h"
 #include "cli/study_plot.h"
@@ -10,6 +9,7 @@
 #include "cli/study_summary.h"
 #include "cli/study_table.h"
 #include "mesh/input_error.h"
+#include "render/mesh_pictures.h"
 #include "support/catch.h"
 
 using namespace tyndall;

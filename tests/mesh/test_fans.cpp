@@ -22,7 +22,7 @@ BaseMesh partitioned(Opacity opacity = Opacity::opaque) {
         .mesh;
 }
 
-Point centroid(const BaseMesh& mesh, TetId tet) {
+Point middle_of(const BaseMesh& mesh, TetId tet) {
     Point sum(0.0);
     for (const VertexId v : mesh.tets[tet.value]) sum += 0.25 * mesh.points[v.value];
     return sum;
@@ -42,7 +42,7 @@ std::array<std::set<TetId>, 2> fans_around(const BaseMesh& mesh, VertexId v) {
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
         const auto& c = mesh.tets[t];
         if (std::find(c.begin(), c.end(), v) == c.end()) continue;
-        result[centroid(mesh, TetId(t)).x > 1.0].insert(fans.of_tet(carrier, TetId(t)));
+        result[middle_of(mesh, TetId(t)).x > 1.0].insert(fans.of_tet(carrier, TetId(t)));
     }
     return result;
 }
@@ -131,7 +131,7 @@ TEST_CASE("A vertex on an edge or a face has the fan of that edge or face", "[fa
         if (std::find(c.begin(), c.end(), carrier[0]) == c.end() ||
             std::find(c.begin(), c.end(), carrier[1]) == c.end())
             continue;
-        sides[centroid(mesh, TetId(t)).x > 1.0].insert(fans.of_tet(carrier, TetId(t)));
+        sides[middle_of(mesh, TetId(t)).x > 1.0].insert(fans.of_tet(carrier, TetId(t)));
     }
     CHECK(sides[0].size() == 1);
     CHECK(sides[1].size() == 1);

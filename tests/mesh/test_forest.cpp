@@ -14,7 +14,7 @@ using namespace tyndall::mesh;
 namespace {
 
 // One volume or area is a sum of a few products; 1e-12 leaves a factor of a thousand over rounding.
-constexpr double rounding = 1e-12;
+constexpr double forest_rounding = 1e-12;
 
 BaseMesh grid() {
     return test::box_enclosure({{{0, 0.5, 2}, {0, 1}, {0, 1, 1.25}}},
@@ -68,7 +68,7 @@ TEST_CASE("Roots are the tets and the facet sides", "[forest]") {
         const auto up = area_vector(forest, root_patch(FacetId(f), Side::front));
         const auto down = area_vector(forest, root_patch(FacetId(f), Side::back));
         // The same numbers in another order.
-        CHECK(glm::length(up + down) < rounding);
+        CHECK(glm::length(up + down) < forest_rounding);
         CHECK(glm::dot(up, normal(mesh, FacetId(f))) > 0.0);
     }
 }
@@ -86,7 +86,7 @@ TEST_CASE("Children tile their parents", "[forest]") {
         const ZoneId first = forest[parent].first_child, second(first.value + 1ull);
         const double sum = forest.volume(first) + forest.volume(second);
         // A volume's rounding goes with the coordinates (about 2 m), not with the volume itself.
-        wrong_volume += std::abs(sum - forest.volume(parent)) > rounding;
+        wrong_volume += std::abs(sum - forest.volume(parent)) > forest_rounding;
         for (const auto& [child, sign] : {std::pair{first, -1.0}, std::pair{second, 1.0}}) {
             const double height = glm::dot(forest[parent].plane_normal, forest.centroid(child)) +
                                   forest[parent].plane_offset;
@@ -101,7 +101,7 @@ TEST_CASE("Children tile their parents", "[forest]") {
         if (forest.is_leaf(parent)) continue;
         const PatchId first = forest[parent].first_child, second(first.value + 1ull);
         const auto a = area_vector(forest, first), b = area_vector(forest, second);
-        wrong_area += glm::length(a + b - area_vector(forest, parent)) > rounding;
+        wrong_area += glm::length(a + b - area_vector(forest, parent)) > forest_rounding;
         turned += !(glm::dot(a, area_vector(forest, parent)) > 0.0) ||
                   !(glm::dot(b, area_vector(forest, parent)) > 0.0);
         wrong_side += glm::dot(forest[parent].plane_normal, forest.centroid(first)) +
@@ -126,7 +126,7 @@ TEST_CASE("The leaf at a point holds the point", "[forest]") {
         REQUIRE(forest.is_leaf(leaf));
         REQUIRE(forest.base_tet(leaf) == tet);
         REQUIRE(test::outside_tet([&](int c) { return forest.point(forest[leaf].corners[c]); }, x) <
-                rounding);
+                forest_rounding);
     }
     for (int k = 0; k < 20000; ++k) {
         const PatchId root(test::index_below(random, 2 * mesh.facets.size()));
@@ -141,7 +141,8 @@ TEST_CASE("The leaf at a point holds the point", "[forest]") {
         for (int c = 0; c < 3; ++c) {
             const Point a = forest.point(corners[c]);
             const auto edge = forest.point(corners[(c + 1) % 3]) - a;
-            REQUIRE(glm::dot(glm::cross(normal, edge), x - a) / glm::length(edge) > -rounding);
+            REQUIRE(glm::dot(glm::cross(normal, edge), x - a) / glm::length(edge) >
+                    -forest_rounding);
         }
     }
 }

@@ -16,7 +16,7 @@ using Catch::Matchers::Contains;
 namespace {
 
 // Sums of up to 1e5 terms of double precision.
-constexpr double rounding = 1e-10;
+constexpr double tet_rounding = 1e-10;
 
 void check_topology(const BaseMesh& mesh) {
     bool mutual = true, shared = true, same_facet = true;
@@ -52,7 +52,7 @@ void check_volume(const BaseMesh& mesh) {
         least = std::min(least, volume(mesh, TetId(t)));
     }
     const auto e = mesh.hull_max - mesh.hull_min;
-    CHECK(total == Approx(e.x * e.y * e.z).epsilon(rounding));
+    CHECK(total == Approx(e.x * e.y * e.z).epsilon(tet_rounding));
     CHECK(least > 0.0);
 }
 
@@ -92,7 +92,7 @@ void check_facets(const BaseMesh& mesh, const ConformingComplex& complex) {
     CHECK(wrong == 0);
     REQUIRE(found.size() == wanted.size());
     for (const auto& [polygons, area] : wanted) {
-        CHECK(found[polygons] == Approx(area).epsilon(rounding));
+        CHECK(found[polygons] == Approx(area).epsilon(tet_rounding));
     }
 }
 
@@ -173,7 +173,7 @@ TEST_CASE("interfaces are facets too", "[tetrahedralize]") {
     for (std::uint32_t f = 0; f < mesh.facets.size(); ++f) {
         open += mesh.facets[f].opacity == Opacity::interface ? area(mesh, FacetId(f)) : 0.0;
     }
-    CHECK(open == Approx(1.0).epsilon(rounding));
+    CHECK(open == Approx(1.0).epsilon(tet_rounding));
 }
 
 TEST_CASE("a room split in two by a partition has three regions", "[tetrahedralize]") {

@@ -17,7 +17,7 @@ using radiosity::solid_angle;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 std::vector<Point> rectangle(double x0, double x1, double y0, double y1, double z) {
     return {{x0, y0, z}, {x0, y1, z}, {x1, y1, z}, {x1, y0, z}};

@@ -23,7 +23,7 @@ using test::Face;
 
 namespace {
 
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 enum : std::uint32_t { wall, lamp };
 
 double zone(const DirectLight& light, const Enclosure& e, Point x) {

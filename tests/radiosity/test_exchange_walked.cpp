@@ -62,6 +62,86 @@ TEST_CASE("Rows asked for are the rows given, whatever the order", "[exchange]")
     CHECK(next == some.size());
 }
 
+TEST_CASE("Rows of several bands from one walk are each band's own, to the bit", "[exchange]") {
+    const bool varying = GENERATE(false, true);
+    const auto radiance = GENERATE(Radiance::constant, Radiance::linear);
+    const double radius = GENERATE(0.0, 0.7);
+    auto enclosure = test::crowded_cube();
+    // 13 bands are walked eight, four and one at a time.
+    enclosure.bands = 13;
+    for (auto& side : enclosure.sides) {
+        side.reflectance.assign(13, 0.5);
+        side.emission.assign(13, 0.0);
+    }
+    auto& medium = enclosure.media[0];
+    medium = {"haze", Spectrum(13), Spectrum(13, 0.9), Spectrum(13, 0.0), Spectrum(13)};
+    const auto sample = [](double thickens) {
+        return sample_function([=](Point p) { return 0.1 + p.x + thickens * p.z * p.z; }, {0, 0, 0},
+                               {2, 2, 2}, {.tolerance = 1e-2})
+            .grid;
+    };
+    const auto one = sample(0.5), other = sample(2.0);
+    for (std::size_t b = 0; b < 13; ++b) {
+        medium.extinction[b] = 0.1 + 0.3 * double(b);
+        // Bands share a shape, or one of the factors, or neither.
+        if (varying) medium.varying.push_back({b % 5 < 3 ? one : other, 0.2 + double(b / 2)});
+    }
+    Forest forest(enclosure.mesh);
+    test::bisect_some(forest, 20);
+    const auto elements = elements_of_leaves(enclosure, forest);
+    const Discretization d{enclosure, forest, elements};
+    ExchangeOptions options{.rays = 32, .radiance = radiance};
+    options.settings.interaction_radius = radius;
+    std::vector<std::size_t> bands;
+    for (std::size_t b = 13; b-- > 0;) bands.push_back(b);
+    const auto together = all_rows(exchange_walked_bands, d, options, bands);
+    REQUIRE(together.size() == 13);
+    for (std::size_t k = 0; k < 13; ++k) {
+        options.band = bands[k];
+        const auto alone = all_rows(exchange_walked, d, options);
+        CAPTURE(varying, int(radiance), radius, bands[k]);
+        CHECK(together[k].starts == alone.starts);
+        CHECK(together[k].columns == alone.columns);
+        CHECK(together[k].values == alone.values);
+        CHECK(together[k].moments == alone.moments);
+        CHECK(alone.moments.empty() == (radiance == Radiance::constant));
+        CHECK(closure_error(together[k], elements, bands[k]) < 1e-7);
+    }
+    CHECK(together[0].values != together[12].values);
+}
+
+TEST_CASE("A band in which a medium is transparent walks with others", "[exchange]") {
+    auto enclosure = test::crowded_cube();
+    enclosure.bands = 2;
+    for (auto& side : enclosure.sides) {
+        side.reflectance.assign(2, 0.5);
+        side.emission.assign(2, 0.0);
+    }
+    enclosure.media[0] = {"haze", {0.0, 0.6}, {0.0, 0.9}, {0.0, 0.0}, {0.0, 0.06}};
+    Forest forest(enclosure.mesh);
+    test::bisect_some(forest, 20);
+    const auto elements = elements_of_leaves(enclosure, forest);
+    const Discretization d{enclosure, forest, elements};
+    ExchangeOptions options{.rays = 64, .radiance = Radiance::linear};
+    const std::vector<std::size_t> bands{0, 1};
+    const auto together = all_rows(exchange_walked_bands, d, options, bands);
+    for (std::size_t b = 0; b < 2; ++b) {
+        options.band = b;
+        const auto alone = all_rows(exchange_walked, d, options);
+        const std::vector<double> ones(elements.size(), 1.0);
+        const auto expected = multiply(alone, elements, ones);
+        const auto found = multiply(together[b], elements, ones);
+        for (std::size_t i = 0; i < elements.size(); ++i)
+            CHECK(found[i] == Approx(expected[i]).epsilon(1e-6).margin(1e-12));
+    }
+    // A zone has no row where it is transparent, and no column has anything in it.
+    const auto zone = elements.patches.size();
+    CHECK(elements.capacity[2 * zone] == 0.0);
+    for (std::size_t k = 0; k < together[0].columns.size(); ++k)
+        if (together[0].columns[k] >= zone && together[0].columns[k] != elements.outside())
+            CHECK(together[0].values[k] == 0.0f);
+}
+
 TEST_CASE("Reciprocity comes with rays", "[exchange]") {
     const auto enclosure = test::crowded_cube();
     const Forest forest(enclosure.mesh);

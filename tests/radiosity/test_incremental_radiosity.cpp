@@ -91,7 +91,7 @@ TEST_CASE("Emissions bound anew are those of an enclosure made anew", "[animatio
     CHECK(bound.media[0].emission == made.media[0].emission);
 }
 
-TEST_CASE("A sum of unit solutions is the full solve", "[animation]") {
+TEST_CASE("A sum of unit solutions is the full solve", "[animation][long]") {
     std::vector<Scene> scenes = {room({9, 9}, {1, 2}, {0.1, 0.1}), room({3, 6}, {4, 1}, {0.1, 0.1}),
                                  room({0, 0}, {4, 4}, {0.1, 0.1})};
     const Enclosure enclosure = make_enclosure(scenes[0]);

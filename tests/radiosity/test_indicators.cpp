@@ -17,9 +17,10 @@ namespace {
 using Names = std::vector<std::string>;
 
 Solution solve(const Enclosure& enclosure, const Names& names, const Indicator& own = {},
-               std::size_t max_elements = 8000, double error = 0.1) {
+               std::size_t max_elements = 4000, double error = 0.1) {
     SolveOptions options;
     options.error = error;
+    options.start = Start::base;
     options.max_elements = max_elements;
     options.rays = options.gather_rays = 8;
     options.indicators = names;
@@ -49,7 +50,7 @@ TEST_CASE("Without indicators nothing is bisected, and each alone bisects", "[in
     const auto none = leaves(solve(enclosure, {}));
     CHECK(leaves(solve(enclosure, {"direct"})) > none);
     // Beside the point it is so bright that its shadows hardly count for the whole.
-    CHECK(leaves(solve(lit_room(1000.0), {"shadow_boundary"}, {}, 8000, 1e-4)) > none);
+    CHECK(leaves(solve(lit_room(1000.0), {"shadow_boundary"}, {}, 4000, 1e-4)) > none);
     CHECK(leaves(solve(enclosure, {"indirect"})) > none);
     CHECK(leaves(solve(enclosure, {"jump"})) > none);
 }
@@ -59,7 +60,8 @@ TEST_CASE("The default indicators are direct, shadow_boundary and indirect", "[i
     const auto shared = std::make_shared<const Enclosure>(enclosure);
     SolveOptions options;
     options.error = 0.1;
-    options.max_elements = 8000;
+    options.start = Start::base;
+    options.max_elements = 4000;
     options.rays = options.gather_rays = 8;
     const Solution as_ever = solve_adaptively(shared, options);
     const Solution named = solve(enclosure, {"indirect", "shadow_boundary", "direct"});
@@ -118,7 +120,7 @@ TEST_CASE("Thick zones are bisected where light changes, thin ones are not", "[i
     Scene scene = test::slit_room();
     const auto zones_at = [&](double extinction, const Names& names) {
         for (auto& medium : scene.media) medium.extinction = {extinction};
-        return solve(make_enclosure(scene), names, {}, 30000).report.solved_elements;
+        return solve(make_enclosure(scene), names, {}, 8000).report.solved_elements;
     };
     CHECK(zones_at(0.05, {"optical_thickness"}) == zones_at(0.05, {}));
     CHECK(zones_at(8.0, {"optical_thickness"}) > zones_at(8.0, {}));

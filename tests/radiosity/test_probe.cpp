@@ -1,8 +1,10 @@
 // Probes in enclosures whose answer is known.
+#include <cmath>
 #include <numbers>
 
 #include "mesh/input_error.h"
 #include "radiosity/adaptive.h"
+#include "radiosity/planck_fraction.h"
 #include "radiosity/probe.h"
 #include "support/box_mesh.h"
 #include "support/catch.h"
@@ -11,7 +13,7 @@ namespace {
 
 using namespace tyndall;
 using namespace tyndall::radiosity;
-constexpr double pi = std::numbers::pi;
+using std::numbers::pi;
 
 // A box of 1 m whose walls emit 2 W/m^2/sr, filled with a medium in equilibrium with them: radiance
 // is 2 everywhere and in every direction.
@@ -70,4 +72,33 @@ TEST_CASE("probes need a place in the open and a normal") {
     CHECK_THROWS_WITH(probe.in_space({2, 0, 0}), Contains("[2, 0, 0]") && Contains("outside"));
     CHECK_THROWS_WITH(probe.on_surface({1, 0.5, 0.5}, {1, 0, 0}), Contains("outside"));
     CHECK_THROWS_WITH(probe.on_surface({0.5, 0.5, 0.5}, {0, 0, 0}), Contains("no direction"));
+}
+
+TEST_CASE("probes find temperatures on walls and in media, where a scene has them") {
+    // The floor is kept at what arrives (a = 1, no flux), the other walls and the medium at what
+    // they are given; in equilibrium all have the temperature of σT⁴/π = 2.
+    const auto settled = [](bool thermal) {
+        Enclosure e = *furnace(true);
+        e.thermal = thermal;
+        e.sides.push_back({"floor+", 1, mesh::Side::front, {1.0}, {0.0}, 1.0, {0.5}});
+        for (std::size_t f = 0; f < e.mesh.facets.size(); ++f)
+            if (e.facet_sides[f][0] == 0 && std::abs(mesh::normal(e.mesh, FacetId(f)).z) > 0.5)
+                e.facet_sides[f][0] = 1;
+        return solve(std::make_shared<const Enclosure>(std::move(e)), DirectLightMode::closed_form);
+    };
+    const Solution solution = settled(true);
+    const Probe probe(solution, {1024, 1});
+    const double expected = std::pow(2.0 * pi / stefan_boltzmann, 0.25);
+    // H is good to 2 %, and T is the fourth root of it; what is given is as it was given.
+    CHECK(probe.on_surface({0.3, 0.4, 0}, {0, 0, 1}).temperature ==
+          Approx(expected).epsilon(0.005));
+    CHECK(probe.on_surface({1, 0.4, 0.3}, {-1, 0, 0}).temperature ==
+          Approx(expected).epsilon(1e-9));
+    CHECK(probe.in_space({0.3, 0.4, 0.6}).temperature == Approx(expected).epsilon(1e-9));
+    // No wall, and none whose side the normal looks from.
+    CHECK(std::isnan(probe.on_surface({0.3, 0.4, 0.6}, {0, 0, 1}).temperature));
+    CHECK(std::isnan(probe.on_surface({0.3, 0.4, 0}, {1, 0, 0}).temperature));
+    const Solution cold = settled(false);
+    CHECK(std::isnan(Probe(cold, {16, 1}).in_space({0.3, 0.4, 0.6}).temperature));
+    CHECK(std::isnan(Probe(cold, {16, 1}).on_surface({1, 0.4, 0.3}, {-1, 0, 0}).temperature));
 }

@@ -181,9 +181,9 @@ TEST_CASE("Sheets end at what seals them off", "[shadows]") {
     CHECK(behind == 0);
 }
 
-TEST_CASE("Leaves cut along a sharp shadow hold it with few elements", "[shadows]") {
+TEST_CASE("Leaves cut along a sharp shadow hold it with few elements", "[shadows][long]") {
     const auto enclosure = with_light(room(), sun());
-    const Fit aligned = fit(enclosure, Refinement::aligned, 0.01, 100000);
+    const Fit aligned = fit(enclosure, Refinement::aligned, 0.015, 100000);
     const Fit plain = fit(enclosure, Refinement::adaptive, 0.001, 30 * aligned.elements);
     CAPTURE(aligned.elements, aligned.error, plain.elements, plain.error);
     // A jump that elements do not follow leaves an error that falls as the square root of their

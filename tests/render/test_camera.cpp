@@ -1,4 +1,5 @@
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <numbers>
 
@@ -87,9 +88,9 @@ TEST_CASE("the view is the frame of the rays") {
     CHECK(glm::dot(view.forward, view.up) == Approx(0.0).margin(1e-15));
     CHECK(glm::length(glm::cross(view.right, view.forward) - view.up) < 1e-15);
     const auto corner = camera.ray(320.0, 240.0).direction;
-    CHECK(glm::dot(corner, view.right) / glm::dot(corner, view.forward) == Approx(view.tan_half_x));
-    CHECK(glm::dot(corner, view.up) / glm::dot(corner, view.forward) == Approx(-view.tan_half_y));
-    CHECK(view.tan_half_y == Approx(0.75 * view.tan_half_x));
+    CHECK(glm::dot(corner, view.right) / glm::dot(corner, view.forward) == Approx(view.half_x));
+    CHECK(glm::dot(corner, view.up) / glm::dot(corner, view.forward) == Approx(-view.half_y));
+    CHECK(view.half_y == Approx(0.75 * view.half_x));
 }
 
 TEST_CASE("a camera that cannot be is refused with its name") {
@@ -131,4 +132,85 @@ TEST_CASE("a camera that cannot be is refused with its name") {
         camera.height = 0;
         refused("empty");
     }
+}
+
+TEST_CASE("An orthographic camera's rays are parallel, a length apart") {
+    render::Camera camera;
+    camera.projection = radiosity::PictureProjection::orthographic;
+    camera.eye = {1, 2, 3};
+    camera.target = {1, 5, 3};  // looks along y; x is to the right, z up
+    camera.extent_y = 4.0;
+    camera.width = 300;
+    camera.height = 200;
+    const auto corner = camera.ray(300.0, 0.0), middle = camera.ray(150.0, 100.0);
+    CHECK(middle.origin == camera.eye);
+    CHECK(glm::length(corner.origin - mesh::Point(1 + 3, 2, 3 + 2)) < 1e-12);
+    CHECK(glm::length(corner.direction - mesh::Direction(0, 1, 0)) < 1e-15);
+    // Areas: of the picture, of what a square metre covers of it.
+    const auto view = camera.view();
+    CHECK(view.extent() == Approx(6.0 * 4.0));
+    CHECK(view.covered({1, 50, 3}, 1.0, 0.1) == 1.0);
+    CHECK(view.sees({3.9, 50, 3}, 0.0));
+    CHECK_FALSE(view.sees({4.1, 50, 3}, 0.05));
+    CHECK_FALSE(view.sees({1, -50, 3}, 1.0));
+}
+
+TEST_CASE("A panorama shows all around, level wherever its middle is") {
+    render::Camera camera;
+    camera.projection = radiosity::PictureProjection::panorama;
+    camera.target = {0, 1, -0.7};  // its middle is level all the same
+    camera.width = 400;
+    camera.height = 200;
+    const auto towards = [&](double x, double y) { return camera.ray(x, y).direction; };
+    CHECK(glm::length(towards(200, 100) - mesh::Direction(0, 1, 0)) < 1e-12);
+    CHECK(glm::length(towards(300, 100) - mesh::Direction(1, 0, 0)) < 1e-12);  // to the right
+    CHECK(glm::length(towards(0, 100) - mesh::Direction(0, -1, 0)) < 1e-12);   // behind
+    CHECK(glm::length(towards(123, 0) - mesh::Direction(0, 0, 1)) < 1e-12);    // the zenith
+    CHECK(glm::length(towards(200, 150) - mesh::Direction(0, 1, -1) / std::sqrt(2.0)) < 1e-12);
+    CHECK(camera.view().extent() == Approx(4.0 * std::numbers::pi));
+    CHECK(camera.view().sees({0, -5, 0}, 0.0));
+    camera.height = 150;
+    CHECK_THROWS_WITH(camera.view(), Contains("twice as wide as high"));
+}
+
+TEST_CASE("Through a lens all rays of a point of the sharp plane meet there") {
+    auto camera = window_shafts_camera();
+    camera.lens = render::Lens{0.2, 3.0};
+    const render::CameraRays rays(camera);
+    const auto pinhole = rays(40.0, 200.0);
+    const auto forward = camera.view().forward;
+    const mesh::Point sharp =
+        pinhole.origin + 3.0 / glm::dot(pinhole.direction, forward) * pinhole.direction;
+    CHECK(pinhole.origin == camera.eye);
+    mesh::Point mean(0.0);
+    constexpr int across = 40;
+    for (int i = 0; i < across; ++i)
+        for (int j = 0; j < across; ++j) {
+            const auto ray = rays(40.0, 200.0, {(i + 0.5) / across, (j + 0.5) / across});
+            const auto off = ray.origin - camera.eye;
+            CHECK(glm::length(off) <= 0.1);
+            CHECK(std::abs(glm::dot(off, forward)) < 1e-12);
+            const double t = glm::dot(sharp - ray.origin, ray.direction);
+            CHECK(glm::length(ray.origin + t * ray.direction - sharp) < 1e-12);
+            mean += off / double(across * across);
+        }
+    CHECK(glm::length(mean) < 1e-12);  // places are even about the middle
+    camera.lens->focus = 0.0;
+    CHECK_THROWS_WITH(camera.view(), Contains("focus above 0"));
+    camera.lens->focus = 1.0;
+    camera.projection = radiosity::PictureProjection::panorama;
+    CHECK_THROWS_WITH(camera.view(), Contains("only a perspective picture"));
+}
+
+TEST_CASE("A cropped camera's pixels are those of the whole picture") {
+    const auto camera = window_shafts_camera();
+    const auto part = camera.cropped(100, 50, 64, 48);
+    CHECK(part.width == 64);
+    CHECK(part.ray(3.5, 7.5).direction == camera.ray(103.5, 57.5).direction);
+    CHECK(part.cropped(10, 10, 5, 5).ray(0.5, 0.5).direction == camera.ray(110.5, 60.5).direction);
+    // It is solved for the whole.
+    CHECK(part.view().half_x == camera.view().half_x);
+    CHECK_THROWS_WITH(camera.cropped(300, 0, 21, 10), Contains("Give a part of it"));
+    CHECK_THROWS_WITH(camera.cropped(0, 240, 1, 1), Contains("Give a part of it"));
+    CHECK_THROWS_WITH(camera.cropped(0, 0, 0, 1), Contains("Give a part of it"));
 }

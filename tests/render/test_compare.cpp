@@ -124,3 +124,27 @@ TEST_CASE(
     CHECK(difference_range(reference, reference) == 1.0);
     CHECK_THROWS_AS(difference_picture(2, 2, picture, reference, 0.0), mesh::InputError);
 }
+
+TEST_CASE("MAPE weighs dark places as bright ones, but for what is nearly black") {
+    // A tenth too bright everywhere, and 1 where the reference is black: of 1 % of the mean, 25.
+    const Layer reference{"beauty", 1, {0.0f, 1.0f, 10.0f, 89.0f}};
+    Layer picture{"beauty", 1, {0.0f, 1.1f, 11.0f, 97.9f}};
+    const double floor = 0.25;
+    const double tenth =
+        0.1 * (1.0 / (1.0 + floor) + 10.0 / (10.0 + floor) + 89.0 / (89.0 + floor));
+    CHECK(compare(2, 2, picture, reference).mape == Approx(tenth / 4.0));
+    picture.values[0] = 1.0f;
+    CHECK(compare(2, 2, picture, reference).mape == Approx((tenth + 1.0 / floor) / 4.0));
+    picture.values[0] = std::nanf("");
+    CHECK(compare(2, 2, picture, reference).mape == Approx(tenth / 3.0));
+}
+
+TEST_CASE("A region is the pixels it says") {
+    Layer layer{"beauty", 2, {}};
+    for (int k = 0; k < 4 * 3 * 2; ++k) layer.values.push_back(float(k));
+    const Layer part = region_of(4, 3, layer, {1, 1, 2, 2});
+    CHECK(part.channels == 2);
+    CHECK(part.values == std::vector<float>{10, 11, 12, 13, 18, 19, 20, 21});
+    CHECK_THROWS_WITH(region_of(4, 3, layer, {3, 0, 2, 1}), Contains("Give a part"));
+    CHECK_THROWS_WITH(region_of(4, 3, layer, {0, 3, 1, 1}), Contains("Give a part"));
+}

@@ -1,5 +1,6 @@
-#include "cli/mesh_pictures.h"
+#include "render/mesh_pictures.h"
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -7,9 +8,13 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "mesh/entry.h"
+#include "mesh/input_error.h"
 #include "mesh/walk.h"
+#include "radiosity/open_places.h"
+#include "render/element_fields.h"
 
-namespace tyndall::cli {
+namespace tyndall::render {
 namespace {
 
 using mesh::Direction;
@@ -17,13 +22,12 @@ using mesh::Point;
 using mesh::TetId;
 using radiosity::none;
 using radiosity::Solution;
-using Colour = std::array<double, 3>;  // sRGB codes, 0 to 255
 
 constexpr std::size_t overlay_width = 640, slice_length = 960;
 constexpr Colour edge_colour{255, 120, 0}, empty_colour{235, 235, 235};
 constexpr double edge_share = 0.65, slice_edge_share = 0.3;
 
-void blend(render::DisplayImage& image, std::size_t pixel, const Colour& colour, double share) {
+void blend(DisplayImage& image, std::size_t pixel, const Colour& colour, double share) {
     for (std::size_t c = 0; c < 3; ++c) {
         auto& value = image.values[3 * pixel + c];
         value = static_cast<std::uint8_t>(std::lround((1.0 - share) * value + share * colour[c]));
@@ -33,7 +37,7 @@ void blend(render::DisplayImage& image, std::size_t pixel, const Colour& colour,
 // Blends the colour that `colour` chooses for a pixel in, where its id differs from that of its
 // right or lower neighbour.
 template <class ColourFor>
-void draw_edges(render::DisplayImage& image, const std::vector<std::uint32_t>& ids, double share,
+void draw_edges(DisplayImage& image, const std::vector<std::uint32_t>& ids, double share,
                 ColourFor&& colour) {
     for (std::size_t y = 0; y < image.height; ++y)
         for (std::size_t x = 0; x < image.width; ++x) {
@@ -44,8 +48,8 @@ void draw_edges(render::DisplayImage& image, const std::vector<std::uint32_t>& i
         }
 }
 
-render::DisplayImage enlarged(const render::DisplayImage& picture, std::size_t factor) {
-    render::DisplayImage large{picture.width * factor, picture.height * factor, 3, {}};
+DisplayImage enlarged(const DisplayImage& picture, std::size_t factor) {
+    DisplayImage large{picture.width * factor, picture.height * factor, 3, {}};
     large.values.reserve(3 * large.width * large.height);
     for (std::size_t y = 0; y < large.height; ++y)
         for (std::size_t x = 0; x < large.width; ++x) {
@@ -57,28 +61,39 @@ render::DisplayImage enlarged(const render::DisplayImage& picture, std::size_t f
     return large;
 }
 
-std::uint32_t patch_seen(const Solution& s, const mesh::Ray& ray, TetId eye) {
-    if (!eye.valid() || s.enclosure->solid(eye)) return none;
-    const auto end =
-        mesh::walk(s.enclosure->mesh, ray, {eye}, [](TetId, double, double) { return true; });
-    if (end.arrival != mesh::Arrival::struck) return none;
-    const Point x = ray.origin + end.distance * ray.direction;
-    return s.forest.leaf_at(mesh::root_patch(end.facet, end.side), x).value;
-}
+// The leaf that a ray of the camera ends on, and where; none: nothing that has a side.
+struct SeenLeaf {
+    mesh::PatchId leaf;
+    Point x{0.0};
+};
 
-// The ray from where it enters the hull, for eyes outside.
-mesh::Ray moved_into(const mesh::BaseMesh& mesh, mesh::Ray ray) {
-    double in = 0.0, out = std::numeric_limits<double>::infinity();
-    for (int k = 0; k < 3; ++k) {
-        double a = (mesh.hull_min[k] - ray.origin[k]) / ray.direction[k];
-        double b = (mesh.hull_max[k] - ray.origin[k]) / ray.direction[k];
-        if (a > b) std::swap(a, b);
-        in = std::max(in, a);
-        out = std::min(out, b);
+class Eye {
+  public:
+    Eye(const Solution& s, const Camera& camera)
+        : s_(s), mesh_(s.enclosure->mesh), ray_(camera), eye_(camera.eye) {
+        tet_ = mesh::locate(mesh_, eye_);
     }
-    if (in < out) ray.origin += (in + 1e-9 * (out - in)) * ray.direction;
-    return ray;
-}
+
+    // Through the point (x, y) of the picture.
+    SeenLeaf operator()(double x, double y) const {
+        mesh::Ray ray = ray_(x, y);
+        const mesh::Entry entry = mesh::entry_near(mesh_, ray, eye_, tet_);
+        if (!entry.tet.valid() || s_.enclosure->solid(entry.tet)) return {};
+        ray.origin += entry.distance * ray.direction;
+        const auto end =
+            mesh::walk(mesh_, ray, {entry.tet}, [](TetId, double, double) { return true; });
+        if (end.arrival != mesh::Arrival::struck) return {};
+        const Point at = ray.origin + end.distance * ray.direction;
+        return {s_.forest.leaf_at(mesh::root_patch(end.facet, end.side), at), at};
+    }
+
+  private:
+    const Solution& s_;
+    const mesh::BaseMesh& mesh_;
+    CameraRays ray_;
+    Point eye_;
+    TetId tet_;
+};
 
 struct Box {
     Point low{std::numeric_limits<double>::infinity()};
@@ -133,75 +148,20 @@ Window window_of(const radiosity::Enclosure& e, const Plane& plane) {
             count(1)};
 }
 
-// Source: a polynomial through matplotlib's map "viridis" (M. Zucker, 2019, public domain).
-Colour heat_colour(double t) {
-    constexpr double c[7][3] = {
-        {0.2777273, 0.0054073, 0.3340998},   {0.1050930, 1.4046135, 1.3845902},
-        {-0.3308618, 0.2148476, 0.0950952},  {-4.6342305, -5.7991010, -19.3324410},
-        {6.2282699, 14.1799334, 56.6905526}, {4.7763850, -13.7451454, -65.3530326},
-        {-5.4354559, 4.6458526, 26.3124352}};
-    t = std::clamp(t, 0.0, 1.0);
-    Colour colour;
-    for (std::size_t k = 0; k < 3; ++k) {
-        double value = 0.0;
-        for (int power = 6; power >= 0; --power) value = value * t + c[power][k];
-        colour[k] = 255.0 * std::clamp(value, 0.0, 1.0);
-    }
-    return colour;
-}
-
-// Colours by the logarithm: shafts are many times brighter near their lamp than far from it.
-struct ColourScale {
-    double low, high;
-
-    Colour operator()(double value) const {
-        if (!(value > low)) return heat_colour(0.0);
-        return heat_colour(std::log(value / low) / std::log(high / low));
-    }
-};
-
-double percentile(std::vector<double>& values, double share) {
-    const auto at = values.begin() +
-                    static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), at, values.end());
-    return *at;
-}
-
-ColourScale scale_for(std::vector<double> values) {
-    std::erase_if(values, [](double v) { return !(v > 0.0); });
-    if (values.empty()) return {0.1, 1.0};
-    const double high = percentile(values, 0.995), low = percentile(values, 0.005);
-    return {std::clamp(low, 1e-3 * high, 0.5 * high), high};
-}
-
-double mean_source(const Solution& s, mesh::ZoneId zone, Point x) {
-    double sum = 0.0;
-    for (std::size_t b = 0; b < s.enclosure->bands; ++b)
-        sum += radiosity::emission_of(s, zone, b) +
-               radiosity::scatter_of(s, zone, b) *
-                   (s.direct.at(zone, b).at(x) + s.indirect.at(zone, b).at(x));
-    return sum / static_cast<double>(s.enclosure->bands);
-}
-
 }  // namespace
 
-render::DisplayImage mesh_overlay(const Solution& solution, const render::Camera& camera,
-                                  const render::DisplayImage& picture) {
+DisplayImage mesh_overlay(const Solution& solution, const Camera& camera,
+                          const DisplayImage& picture) {
     const std::size_t factor = std::max<std::size_t>(
         1, (overlay_width + picture.width - 1) / std::max<std::size_t>(1, picture.width));
     auto image = enlarged(picture, factor);
-    const auto& base = solution.enclosure->mesh;
-    const TetId eye = mesh::locate(base, camera.eye);
     std::vector<std::uint32_t> ids(image.width * image.height);
-    const render::CameraRays camera_ray(camera);
+    const Eye eye(solution, camera);
     tbb::parallel_for(std::size_t(0), image.height, [&](std::size_t y) {
-        for (std::size_t x = 0; x < image.width; ++x) {
-            auto ray =
-                camera_ray((double(x) + 0.5) / double(factor), (double(y) + 0.5) / double(factor));
-            if (!eye.valid()) ray = moved_into(base, ray);
+        for (std::size_t x = 0; x < image.width; ++x)
             ids[y * image.width + x] =
-                patch_seen(solution, ray, eye.valid() ? eye : mesh::locate(base, ray.origin));
-        }
+                eye((double(x) + 0.5) / double(factor), (double(y) + 0.5) / double(factor))
+                    .leaf.value;
     });
     draw_edges(image, ids, edge_share, [](const std::uint8_t*) { return edge_colour; });
     return image;
@@ -215,35 +175,76 @@ Plane default_plane(const radiosity::Enclosure& enclosure) {
     return {middle, along_x ? Direction(0, 1, 0) : Direction(1, 0, 0)};
 }
 
-render::DisplayImage mesh_slice(const Solution& solution, const Plane& plane) {
+namespace {
+
+// Colours for a value a pixel, and the edges of what the ids stand for.
+FieldPicture coloured(std::size_t width, std::size_t height, const std::vector<std::uint32_t>& ids,
+                      const std::vector<double>& values, const FieldOptions& options,
+                      bool logarithmic) {
+    std::vector<double> shown;
+    for (std::size_t k = 0; k < ids.size(); ++k)
+        if (ids[k] != none) shown.push_back(values[k]);
+    FieldPicture result{{width, height, 3, {}}, scale_for(std::move(shown), logarithmic)};
+    if (options.low) result.scale.low = *options.low;
+    if (options.high) result.scale.high = *options.high;
+    if (!(result.scale.low < result.scale.high) || (logarithmic && !(result.scale.low > 0.0)))
+        throw mesh::InputError(
+            fmt::format("colours from {} to {} show nothing of {}. Give {} below the upper end.",
+                        result.scale.low, result.scale.high, options.field,
+                        logarithmic ? "a lower end above 0 and" : "a lower end"));
+    result.image.values.assign(3 * ids.size(), static_cast<std::uint8_t>(empty_colour[0]));
+    for (std::size_t k = 0; k < ids.size(); ++k)
+        if (ids[k] != none) blend(result.image, k, result.scale(values[k]), 1.0);
+    if (options.edges)
+        draw_edges(result.image, ids, slice_edge_share, [](const std::uint8_t* rgb) {
+            return rgb[1] > 110 ? Colour{0, 0, 0} : Colour{255, 255, 255};
+        });
+    return result;
+}
+
+}  // namespace
+
+FieldPicture field_slice(const Solution& solution, const Plane& plane,
+                         const FieldOptions& options) {
     const auto& e = *solution.enclosure;
     const Window window = window_of(e, plane);
-    render::DisplayImage image{window.width, window.height, 3, {}};
-    const std::size_t count = image.width * image.height;
-    image.values.assign(3 * count, static_cast<std::uint8_t>(empty_colour[0]));
-    std::vector<std::uint32_t> ids(count, none);
-    std::vector<double> sources(count, 0.0);
-    tbb::parallel_for(std::size_t(0), image.height, [&](std::size_t y) {
+    const NamedField& field = field_named(options.field);
+    std::vector<std::uint32_t> ids(window.width * window.height, none);
+    std::vector<double> values(ids.size(), 0.0);
+    tbb::parallel_for(std::size_t(0), window.height, [&](std::size_t y) {
         TetId near(0);
-        for (std::size_t x = 0; x < image.width; ++x) {
+        for (std::size_t x = 0; x < window.width; ++x) {
             const Point p =
                 window.corner + (double(x) + 0.5) * window.right + (double(y) + 0.5) * window.down;
             const TetId tet = mesh::locate(e.mesh, p, near);
             if (!tet.valid()) continue;
             near = tet;
-            if (e.solid(tet) || e.medium_of(tet) == none) continue;
+            if (e.solid(tet) || e.medium_of(tet) == none || radiosity::covered(e, p)) continue;
             const auto zone = solution.forest.leaf_at(mesh::root_zone(tet), p);
-            ids[y * image.width + x] = zone.value;
-            sources[y * image.width + x] = mean_source(solution, zone, p);
+            ids[y * window.width + x] = zone.value;
+            values[y * window.width + x] = field.of_zone(solution, zone, p);
         }
     });
-    const ColourScale colour = scale_for(sources);
-    for (std::size_t k = 0; k < count; ++k)
-        if (ids[k] != none) blend(image, k, colour(sources[k]), 1.0);
-    draw_edges(image, ids, slice_edge_share, [](const std::uint8_t* rgb) {
-        return rgb[1] > 110 ? Colour{0, 0, 0} : Colour{255, 255, 255};
-    });
-    return image;
+    return coloured(window.width, window.height, ids, values, options, field.logarithmic);
 }
 
-}  // namespace tyndall::cli
+FieldPicture field_picture(const Solution& solution, const Camera& camera,
+                           const FieldOptions& options) {
+    const NamedField& field = field_named(options.field);
+    std::vector<std::uint32_t> ids(camera.width * camera.height, none);
+    std::vector<double> values(ids.size(), 0.0);
+    const Eye eye(solution, camera);
+    tbb::parallel_for(std::size_t(0), camera.height, [&](std::size_t y) {
+        for (std::size_t x = 0; x < camera.width; ++x) {
+            const SeenLeaf seen = eye(double(x) + 0.5, double(y) + 0.5);
+            if (!seen.leaf.valid() ||
+                radiosity::side_of(*solution.enclosure, solution.forest, seen.leaf) == none)
+                continue;
+            ids[y * camera.width + x] = seen.leaf.value;
+            values[y * camera.width + x] = field.of_patch(solution, seen.leaf, seen.x);
+        }
+    });
+    return coloured(camera.width, camera.height, ids, values, options, field.logarithmic);
+}
+
+}  // namespace tyndall::render

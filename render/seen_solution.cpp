@@ -1,0 +1,140 @@
+#include "render/seen_solution.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "radiosity/segment.h"
+
+namespace tyndall::render {
+
+using mesh::PatchId;
+using mesh::Point;
+using mesh::ZoneId;
+using radiosity::Affine;
+using radiosity::none;
+
+namespace {
+
+// Mean radiance of the surfaces, a measure of the picture's before there is one [W/m^2/sr].
+double typical_radiance(const radiosity::Solution& s) {
+    double sum = 0.0, area = 0.0;
+    for (std::size_t p = 0; p < s.forest.patch_count(); ++p) {
+        const PatchId patch(p);
+        if (!s.forest.is_leaf(patch) || radiosity::side_of(*s.enclosure, s.forest, patch) == none)
+            continue;
+        const double a = s.forest.area(patch);
+        const Point centroid = s.forest.centroid(patch);
+        for (std::size_t b = 0; b < s.enclosure->bands; ++b)
+            sum += a * radiosity::scatter_of(s, patch, b) *
+                   (s.direct.at(patch, b).at(centroid) + s.indirect.at(patch, b).at(centroid));
+        area += a * static_cast<double>(s.enclosure->bands);
+    }
+    return area > 0.0 ? sum / area : 0.0;
+}
+
+}  // namespace
+
+SeenSolution::SeenSolution(const radiosity::Solution& solution, double direct_tolerance)
+    : s_(solution),
+      e_(*solution.enclosure),
+      bands_(e_.bands),
+      light_(e_, {.emitters = s_.direct_light == radiosity::DirectLightMode::closed_form}),
+      threshold_(direct_tolerance * typical_radiance(solution)) {}
+
+bool SeenSolution::cross(const mesh::Ray& ray, ZoneId zone, double t_in, double t_out,
+                         Seen& seen) const {
+    const auto& optics = e_.media[medium_of(e_, s_.forest, zone)];
+    const Point in = ray.origin + t_in * ray.direction, out = ray.origin + t_out * ray.direction;
+    double most = 0.0;
+    radiosity::SegmentWeights w{};
+    radiosity::SegmentOfBands segment(ray.origin, ray.direction, t_in, t_out);
+    for (std::size_t b = 0; b < bands_; ++b) {
+        if (!optics.varying.empty())
+            w = segment.weights(optics.varying[b]);
+        else if (b == 0 || optics.extinction[b] != optics.extinction[b - 1])
+            w = radiosity::segment_weights(optics.extinction[b] * (t_out - t_in));
+        double& transmittance = seen.transmittance[b];
+        const auto gain = [&](Part part, double at_in, double at_out) {
+            seen.radiance[part * bands_ + b] +=
+                transmittance * (w.front * std::max(0.0, at_in) + w.back * std::max(0.0, at_out));
+        };
+        const double a = optics.albedo[b], emitted = radiosity::emission_of(s_, zone, b);
+        const Affine& direct = s_.direct.at(zone, b);
+        const Affine& indirect = s_.indirect.at(zone, b);
+        gain(emission, emitted, emitted);
+        gain(single_scattering, a * direct.at(in), a * direct.at(out));
+        gain(multiple_scattering, a * indirect.at(in), a * indirect.at(out));
+        transmittance *= w.transmittance;
+        most = std::max(most, transmittance);
+    }
+    return most > 1e-9;
+}
+
+void SeenSolution::strike(PatchId leaf, Point x, mesh::TetId before, Seen& seen) const {
+    const auto side = radiosity::side_of(e_, s_.forest, leaf);
+    if (side == none) return;
+    const auto& optics = e_.sides[side];
+    thread_local std::vector<double> direct;
+    direct.resize(bands_);
+    if (s_.patch_direct_error[leaf.value] > threshold_) {
+        const mesh::Direction n = radiosity::normal_of(s_.forest, leaf);
+        light_.at_patch(x, n, before, direct);
+    } else {
+        for (std::size_t b = 0; b < bands_; ++b)
+            direct[b] = std::max(0.0, s_.direct.at(leaf, b).at(x));
+    }
+    for (std::size_t b = 0; b < bands_; ++b) {
+        const double t = seen.transmittance[b], rho = optics.reflectance[b];
+        seen.radiance[emission * bands_ + b] += t * radiosity::emission_of(s_, leaf, b);
+        seen.radiance[surfaces_direct * bands_ + b] += t * rho * direct[b];
+        seen.radiance[surfaces_indirect * bands_ + b] +=
+            t * rho * std::max(0.0, s_.indirect.at(leaf, b).at(x));
+    }
+}
+
+void SeenSolution::leave(Seen& seen) const {
+    for (std::size_t b = 0; b < bands_; ++b)
+        seen.radiance[emission * bands_ + b] += seen.transmittance[b] * e_.environment[b];
+}
+
+PictureSums::PictureSums(const Camera& camera, std::size_t bands) : bands_(bands) {
+    image_.width = camera.width;
+    image_.height = camera.height;
+    const auto add = [&](const char* name, std::size_t channels) {
+        image_.layers.push_back(
+            {name, channels, std::vector<float>(image_.width * image_.height * channels)});
+    };
+    add("beauty", bands);
+    for (std::size_t p = 0; p < solved_parts; ++p) add(part_names[p], bands);
+    add("transmittance", bands);
+    add("depth", 1);
+}
+
+void PictureSums::begin(Sums& sums) const {
+    sums.values.assign((solved_parts + 1) * bands_, 0.0);
+    sums.depth = std::numeric_limits<double>::infinity();
+}
+
+void PictureSums::add(const Seen& seen, Sums& sums) const {
+    for (std::size_t n = 0; n < solved_parts * bands_; ++n) sums.values[n] += seen.radiance[n];
+    for (std::size_t b = 0; b < bands_; ++b)
+        sums.values[solved_parts * bands_ + b] += seen.transmittance[b];
+    sums.depth = std::min(sums.depth, seen.depth);
+}
+
+void PictureSums::end(const Sums& sums, std::size_t pixel, std::size_t rays) {
+    const double share = 1.0 / static_cast<double>(rays);
+    for (std::size_t b = 0; b < bands_; ++b) {
+        double beauty = 0.0;
+        for (std::size_t part = 0; part <= solved_parts; ++part) {
+            const double value = share * sums.values[part * bands_ + b];
+            image_.layers[1 + part].values[pixel * bands_ + b] = static_cast<float>(value);
+            if (part < solved_parts) beauty += value;
+        }
+        image_.layers[0].values[pixel * bands_ + b] = static_cast<float>(beauty);
+    }
+    image_.layers[2 + solved_parts].values[pixel] = static_cast<float>(sums.depth);
+}
+
+}  // namespace tyndall::render

@@ -1,0 +1,63 @@
+// What a ray sees of a solution: zones with linear J, the patch at its end; and pictures as means
+// of rays, with a layer for each part.
+#pragma once
+
+#include "mesh/walk.h"
+#include "radiosity/direct_light.h"
+#include "radiosity/solution.h"
+#include "render/camera.h"
+#include "render/image.h"
+#include "render/picture_parts.h"
+
+namespace tyndall::render {
+
+// Parts of what a solution holds: nothing is specular.
+inline constexpr std::size_t solved_parts = specular_reflection;
+
+class SeenSolution {
+  public:
+    // `direct_tolerance`: RenderOptions has it [-].
+    SeenSolution(const radiosity::Solution& solution, double direct_tolerance);
+
+    // Adds what a ray gains between two distances in a leaf of a medium, in closed form for J
+    // linear there (4), and takes the leaf's transmittance. False where so little is left that the
+    // rest does not show.
+    bool cross(const mesh::Ray& ray, mesh::ZoneId zone, double t_in, double t_out,
+               Seen& seen) const;
+
+    // Adds what the leaf of a patch sends out at x; `before`: the tet on the ray's side of it.
+    void strike(mesh::PatchId leaf, mesh::Point x, mesh::TetId before, Seen& seen) const;
+
+    // Adds what comes in from outside.
+    void leave(Seen& seen) const;
+
+  private:
+    const radiosity::Solution& s_;
+    const radiosity::Enclosure& e_;
+    std::size_t bands_;
+    radiosity::DirectLight light_;
+    double threshold_;  // error of a patch's direct light above which it is computed anew
+};
+
+// A picture of the layers that line_of_sight.h names, pixel by pixel.
+class PictureSums {
+  public:
+    struct Sums {  // of the rays of a pixel
+        std::vector<double> values;
+        double depth;
+    };
+    PictureSums(const Camera& camera, std::size_t bands);
+
+    void begin(Sums& sums) const;
+    void add(const Seen& seen, Sums& sums) const;
+    // From several threads for different pixels.
+    void end(const Sums& sums, std::size_t pixel, std::size_t rays);
+
+    Image take() { return std::move(image_); }
+
+  private:
+    std::size_t bands_;
+    Image image_;
+};
+
+}  // namespace tyndall::render
