@@ -116,24 +116,7 @@ TEST_CASE("A body in the tetrahedra is the box that they conform to", "[moving]"
     const Solution body = solve_adaptively(with_box(there), options);
     const Solution cut =
         solve_adaptively(std::make_shared<const Enclosure>(make_enclosure(scene)), options);
-    options.seed = 2;
-    const Solution body2 = solve_adaptively(with_box(there), options);
-    const Solution cut2 =
-        solve_adaptively(std::make_shared<const Enclosure>(make_enclosure(scene)), options);
-    options.seed = 1;
-    options.element_size = 0.35;
-    const Solution body3 = solve_adaptively(with_box(there), options);
-    const Solution cut3 =
-        solve_adaptively(std::make_shared<const Enclosure>(make_enclosure(scene)), options);
-    options.element_size = 0.25;
-    const Solution cut4 =
-        solve_adaptively(std::make_shared<const Enclosure>(make_enclosure(scene)), options);
-    const Solution body4 = solve_adaptively(with_box(there), options);
     for (const auto& [name, power] : cut.report.net_power) {
-        std::printf("TMP %s", name.c_str());
-        for (const auto* q : {&body, &cut, &body2, &cut2, &body3, &cut3, &body4, &cut4})
-            std::printf(" %.5f", q->report.net_power.at(name)[0]);
-        std::printf("\n");
         INFO(name << ": " << body.report.net_power.at(name)[0] << " W, conforming " << power[0]);
         if (name == "outside") continue;
         // Two meshes, of elements of half a metre, on which a side of the box is two.
