@@ -47,10 +47,9 @@ void read_projection(const TableReader& reader, render::Camera& camera) {
         camera.projection =
             static_cast<PictureProjection>(reader.choice("projection", projections));
     const auto name = projections[static_cast<std::size_t>(camera.projection)];
-    if (camera.projection != PictureProjection::perspective) {
-        refuse(reader, angles, name);
+    // Angles are passed over there, so that --set can turn a camera into a panorama and back.
+    if (camera.projection != PictureProjection::perspective)
         refuse(reader, std::array<std::string_view, 1>{"lens"}, name);
-    }
     if (camera.projection != PictureProjection::orthographic) refuse(reader, extents, name);
     if (camera.projection == PictureProjection::perspective) read_angle(reader, camera);
     if (camera.projection == PictureProjection::orthographic) read_extent(reader, camera);

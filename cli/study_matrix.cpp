@@ -42,9 +42,9 @@ std::string for_file(const std::string& text) {
 }
 
 // What tells a matrix's curves from each other and from those of other matrices.
-class Names {
+class AxisNames {
   public:
-    explicit Names(const Study& study) : short_(short_names(axis_keys(study))) {
+    explicit AxisNames(const Study& study) : short_(short_names(axis_keys(study))) {
         std::map<std::string, std::set<std::string>> values;
         std::map<std::string, std::size_t> matrices;
         for (const auto& matrix : study.matrices)
@@ -79,7 +79,7 @@ bool changes_scene(const std::string& key) {
     return !key.starts_with("solve.") && !key.starts_with("render.");
 }
 
-StudyRun make_run(const Study& study, const Matrix& matrix, const Names& names,
+StudyRun make_run(const Study& study, const Matrix& matrix, const AxisNames& names,
                   const std::vector<std::string>& columns, std::size_t index) {
     StudyRun run;
     run.cells.resize(columns.size());
@@ -152,7 +152,7 @@ std::vector<StudyRun> expand(const Study& study, const CommonFlags& flags) {
     check_flags(study, flags);
     const auto columns = axis_keys(study);
     const auto common = common_settings(study, flags);
-    const Names names(study);
+    const AxisNames names(study);
     std::vector<StudyRun> runs;
     std::map<std::string, std::size_t> slugs;
     for (const auto& matrix : study.matrices)

@@ -16,28 +16,31 @@ if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
         set(CMAKE_CXX_COMPILER_LAUNCHER ${TYNDALL_CCACHE})
     endif()
 endif()
-# Several files at once share what they parse and instantiate: half the time of the compiler. With a
-# compiler cache one by one is better, and shows a file that lacks an include.
+# A compiler cache does better without; there a file that lacks an include shows, too.
 if(CMAKE_CXX_COMPILER_LAUNCHER)
-    set(unity OFF)
+    set(precompile OFF)
 else()
-    set(unity ON)
+    set(precompile ON)
 endif()
-option(TYNDALL_UNITY "Compile the files of a folder several at once" ${unity})
-set(CMAKE_UNITY_BUILD ${TYNDALL_UNITY})
-set(CMAKE_UNITY_BUILD_BATCH_SIZE 8)
+option(TYNDALL_PRECOMPILE "Parse the headers that most files read once a folder" ${precompile})
 
 add_library(tyndall_options INTERFACE)
 # -ffp-contract=off: the walk's edge tests must be antisymmetric to the last bit (mesh/walk.h), and
 # results must not depend on whether the machine has fused multiply-add.
-# subobject-linkage takes what a file keeps to itself for a header's where files are compiled together.
 target_compile_options(tyndall_options INTERFACE -Wall -Wextra -ffp-contract=off
-                       $<$<BOOL:${TYNDALL_UNITY}>:-Wno-subobject-linkage>
                        $<$<BOOL:${TYNDALL_WERROR}>:-Werror>)
 
 # For what reads, writes and asks but computes little: a third less time in the compiler.
 add_library(tyndall_quick_compile INTERFACE)
 target_compile_options(tyndall_quick_compile INTERFACE $<$<CONFIG:Release>:-O1>)
+
+# tyndall_precompile(TARGET HEADERS...): headers of libraries that most files of the target read.
+function(tyndall_precompile target)
+    if(TYNDALL_PRECOMPILE)
+        target_precompile_headers(${target} PRIVATE <algorithm> <cmath> <filesystem> <functional> <map>
+                                  <memory> <optional> <string> <vector> ${ARGN})
+    endif()
+endfunction()
 
 # tyndall_library(FOLDER): the static library tyndall_FOLDER from FOLDER/*.cpp, include prefix "FOLDER/".
 function(tyndall_library folder)

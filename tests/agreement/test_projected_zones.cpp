@@ -24,8 +24,8 @@ render::Camera towards_slit() {
 const radiosity::Solution& slit_solution() {
     static const radiosity::Solution solution = radiosity::solve_adaptively(
         std::make_shared<const radiosity::Enclosure>(radiosity::make_enclosure(test::slit_room())),
-        {.start = radiosity::Start::base,
-         .error = 0.1,
+        {.error = 0.1,
+         .start = radiosity::Start::base,
          .max_elements = 3000,
          .rays = 16,
          .gather_rays = 16},

@@ -94,7 +94,7 @@ TEST_CASE("Three renderers show the slit room alike, layer by layer", "[picture]
           Approx(line.find("transmittance")->values.front()).epsilon(0.02));
 }
 
-TEST_CASE("Two passes: fog that scatters forwards", "[picture]") {
+TEST_CASE("Two passes: fog that scatters forwards", "[picture][long]") {
     auto scene = bright_room();
     scene.media[0].asymmetry = 0.7;
     scene.media[0].extinction = {0.6};
@@ -112,7 +112,7 @@ TEST_CASE("Two passes: fog that scatters forwards", "[picture]") {
     CHECK(departure(paths, line, "beauty", mean_of(paths)).found > 2.0 * by_two.found);
 }
 
-TEST_CASE("Two passes: mirrors and gloss", "[picture]") {
+TEST_CASE("Two passes: mirrors and gloss", "[picture][long]") {
     auto scene = bright_room();
     scene.materials.push_back(test::material(0.2));
     scene.materials.back().specular = {0.6};

@@ -158,8 +158,6 @@ TEST_CASE("Zonal systems of reference_pairs come to the exact solution", "[zonal
     std::string extinction;
     for (const int cells : {1, 2})
         for (const ZonalCase& c : cases(1)) {
-            // Thicker cubes of eight cells would take as long again.
-            if (cells == 2 && c.kappa == "2") continue;
             const auto enclosure = make_enclosure(cells_of_cube(c.cube, cells));
             const Forest forest(enclosure.mesh);
             const auto elements = start_elements(enclosure, forest, Start::single_zone);

@@ -119,7 +119,7 @@ TEST_CASE("Each band of a solution by rows alone is the grey solution of its opt
     }
 }
 
-TEST_CASE("Each band of a solution with direct light is the grey one, nearly", "[bands]") {
+TEST_CASE("Each band of a solution with direct light is the grey one, nearly", "[bands][long]") {
     const bool varying = GENERATE(false, true);
     const Scene scene = coloured_room(varying);
     const Solution whole = solve(scene, DirectLightMode::closed_form, Radiance::linear);
