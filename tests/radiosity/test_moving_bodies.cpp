@@ -119,7 +119,8 @@ TEST_CASE("A body in the tetrahedra is the box that they conform to", "[moving]"
     for (const auto& [name, power] : cut.report.net_power) {
         INFO(name << ": " << body.report.net_power.at(name)[0] << " W, conforming " << power[0]);
         if (name == "outside") continue;
-        // Two meshes, of elements of half a metre, on which a side of the box is two.
+        // Two meshes, of elements of half a metre, on which a side of the box is two. The bound is
+        // chosen, not derived.
         CHECK(relative(body.report.net_power.at(name)[0], power[0]) < 0.06);
     }
     CHECK(std::abs(body.report.energy_balance) < 0.01);
