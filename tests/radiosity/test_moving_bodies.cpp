@@ -108,7 +108,7 @@ TEST_CASE("Moved rows are those walked anew", "[moving]") {
     CHECK(closure_error(moved, now.elements, 0) < 1e-6);
 }
 
-TEST_CASE("A body in the tetrahedra is the box that they conform to", "[moving]") {
+TEST_CASE("A body in the tetrahedra is the box that they conform to", "[moving][long]") {
     const Scene scene = room_with_box(there);
     SolveOptions options = cheap();
     options.refinement = Refinement::none;
@@ -119,9 +119,9 @@ TEST_CASE("A body in the tetrahedra is the box that they conform to", "[moving]"
     for (const auto& [name, power] : cut.report.net_power) {
         INFO(name << ": " << body.report.net_power.at(name)[0] << " W, conforming " << power[0]);
         if (name == "outside") continue;
-        // Two meshes, of elements of half a metre, on which a side of the box is two. The bound is
-        // chosen, not derived.
-        CHECK(relative(body.report.net_power.at(name)[0], power[0]) < 0.06);
+        // Two meshes are as two seeds, which differ by 1.06 % on the worst side where both conform
+        // (1.2 % here): three times that, since it is the largest of many.
+        CHECK(relative(body.report.net_power.at(name)[0], power[0]) < 0.03);
     }
     CHECK(std::abs(body.report.energy_balance) < 0.01);
 }
