@@ -153,10 +153,13 @@ class LastScatter {
         const auto leaf = [&](ZoneId zone, double in, double out) {
             const Point a = ray.origin + in * ray.direction, b = ray.origin + out * ray.direction;
             double most = 0.0;
+            radiosity::SegmentWeights w{};
+            radiosity::SegmentOfBands segment(ray.origin, ray.direction, in, out);
             for (std::size_t k = 0; k < bands_; ++k) {
-                const auto w = optics.varying.empty()
-                                   ? radiosity::segment_weights(optics.extinction[k] * (out - in))
-                                   : optics.varying[k].weights(ray.origin, ray.direction, in, out);
+                if (!optics.varying.empty())
+                    w = segment.weights(optics.varying[k]);
+                else if (k == 0 || optics.extinction[k] != optics.extinction[k - 1])
+                    w = radiosity::segment_weights(optics.extinction[k] * (out - in));
                 double& transmittance = seen.transmittance[k];
                 const double emitted = emission_of(zone, medium, k);
                 const double back = media_.given_back(medium, k);
