@@ -162,21 +162,20 @@ TEST_CASE("Last scatter: fog that scatters forwards", "[picture]") {
     auto scene = test::slit_room();
     scene.media[0].asymmetry = 0.7;
     const auto camera = small_camera();
-    for (const double extinction : {0.25, 0.5}) {
-        scene.media[0].extinction = {extinction};
-        const auto solution = solved(scene, camera, 0.05);
-        const auto paths = render::path_traced(*solution.enclosure, camera, {.samples = 512});
-        const auto last = render::last_scatter(solution, camera, {.samples = 64});
-        const auto line = render::line_of_sight(solution, camera, {.samples = 64});
-        const double mean = mean_of(paths);
-        for (const char* layer : {"beauty", "single_scattering", "multiple_scattering",
-                                  "surfaces_direct", "surfaces_indirect"}) {
-            const auto by_last = departure(paths, last, layer, mean);
-            const auto by_line = departure(paths, line, layer, mean);
-            WARN(extinction << " " << layer << ": last " << by_last.found << " noise "
-                            << by_last.noise << " line " << by_line.found << " mean "
-                            << test::over(last, layer).mean / test::over(paths, layer).mean << " "
-                            << test::over(line, layer).mean / test::over(paths, layer).mean);
-        }
+    const auto solution = solved(scene, camera, 0.05);
+    const auto paths = render::path_traced(*solution.enclosure, camera, {.samples = 512});
+    const auto last = render::last_scatter(solution, camera, {.samples = 32});
+    const auto line = render::line_of_sight(solution, camera, {.samples = 16});
+    const double mean = mean_of(paths);
+    for (const char* layer : {"beauty", "single_scattering", "multiple_scattering"}) {
+        const auto by_last = departure(paths, last, layer, mean);
+        INFO(layer << " " << by_last.found << " with noise of " << by_last.noise);
+        // 2 % is what is asked of 16 × 16 blocks of a picture.
+        CHECK(by_last.found < std::hypot(2.0 * by_last.noise, 0.02));
+        CHECK(by_last.noise < 0.012);
     }
+    // Two thirds of the multiple scattering are not in the isotropic picture.
+    CHECK(departure(paths, line, "multiple_scattering", mean).found > 0.1);
+    CHECK(test::over(last, "multiple_scattering").mean ==
+          Approx(test::over(paths, "multiple_scattering").mean).epsilon(0.03));
 }

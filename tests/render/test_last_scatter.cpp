@@ -8,6 +8,7 @@
 #include "radiosity/probe.h"
 #include "render/arriving_light.h"
 #include "render/line_of_sight.h"
+#include "render/path_traced.h"
 #include "render/random_numbers.h"
 #include "render/two_pass.h"
 #include "support/catch.h"
@@ -22,7 +23,7 @@ radiosity::Solution solved_roughly(const radiosity::Scene& scene) {
     return radiosity::solve_adaptively(test::enclosed(scene),
                                        {.error = 0.1,
                                         .refinement = radiosity::Refinement::adaptive,
-                                        .max_elements = 2000,
+                                        .max_elements = 1500,
                                         .rays = 64,
                                         .gather_rays = 64});
 }
@@ -96,14 +97,14 @@ TEST_CASE("Cubes: the mean of what arrives is the isotropic gather's") {
 TEST_CASE("Cubes: the series is the sum of Φ over the cube's pixels") {
     const auto scene = foggy_slit(0.6);
     const auto solution = solved_roughly(scene);
-    const render::ArrivingLight light(solution, {.series = 1e-3});
+    const render::ArrivingLight light(solution, {.resolution = 32, .series = 1e-3});
     const radiosity::GatherScene gathered(*solution.enclosure, solution.forest,
                                           radiosity::reflected_sources(solution), 0.2);
     const radiosity::PhaseFunction phase{.asymmetry = 0.6};
     render::RandomNumbers random(2, 0);
     std::vector<double> weights;
     std::size_t looked = 0;
-    for (std::size_t z = 0; z < solution.forest.zone_count() && looked < 12; z += 7) {
+    for (std::size_t z = 0; z < solution.forest.zone_count() && looked < 6; z += 7) {
         const mesh::ZoneId zone(z);
         if (!light.group(zone)) continue;
         ++looked;
@@ -114,7 +115,7 @@ TEST_CASE("Cubes: the series is the sum of Φ over the cube's pixels") {
         for (const auto corner : solution.forest[zone].corners) {
             const auto at =
                 solution.forest.point(corner) + 1e-3 * (x - solution.forest.point(corner));
-            for (const auto& face : radiosity::full_cube_faces(64))
+            for (const auto& face : radiosity::full_cube_faces(48))
                 for (std::size_t j = 0; j < face.nv; ++j)
                     for (std::size_t i = 0; i < face.nu; ++i) {
                         const auto u = glm::normalize(face.direction(i, j));
@@ -131,10 +132,11 @@ TEST_CASE("Cubes: the series is the sum of Φ over the cube's pixels") {
         double q = 0.0, again = 0.0;
         light.shares(zone, weights, x, x, {&q, 1}, {&again, 1});
         CHECK(again == q);
-        // What cubes of 16 and of 64 may differ by, as above; measured 2 %.
-        CHECK(q == Approx(turned / mean).epsilon(0.04));
+        INFO(q << " for " << turned / mean);
+        // What the two cubes' pixels may miss differently of what is small and bright.
+        CHECK(q == Approx(turned / mean).epsilon(0.02));
     }
-    CHECK(looked == 12);
+    CHECK(looked == 6);
 }
 
 // As the path tracer's: a slab of 1 m under a sun, crossed 0.3 m below its top.
@@ -155,8 +157,18 @@ TEST_CASE("Last scatter: light scattered once has the phase function and the who
     const double phase = (1.0 - 0.49) / (4.0 * pi * std::pow(1.49, 1.5));
     const double expected = 0.8 * 100.0 * phase * std::exp(-1.5 * 0.3) * -std::expm1(-1.5 * 2.0);
     const auto found = test::over(image, "single_scattering");
-    // Of a disc 10 degrees wide, Φ's and the slanted path's second derivatives: 0.4 %.
-    CHECK(found.mean == Approx(expected).epsilon(angle > 0.0 ? 0.005 : 1e-6));
+    if (angle == 0.0) {
+        CHECK(found.mean == Approx(expected).epsilon(1e-6));
+    } else {
+        // Φ and the slanted way vary over the disc; paths know.
+        const auto paths =
+            test::over(render::path_traced(*solution.enclosure,
+                                           test::narrow_camera({0.2, 2, 1.7}, {3.5, 2, 1.7}),
+                                           {.samples = 256}),
+                       "single_scattering");
+        CHECK(std::abs(paths.off(found.mean)) < 4.5);
+        CHECK(paths.error < 0.003 * expected);
+    }
     CHECK(test::over(image, "transmittance").mean == Approx(std::exp(-1.5 * 2.0)).epsilon(1e-5));
 }
 
@@ -182,7 +194,7 @@ TEST_CASE("Last scatter is what two_pass finds by one scattering") {
     render::Camera camera = test::narrow_camera({0.3, 0.4, 1.0}, {3.0, 1.2, 0.8});
     camera.fov_x = 1.0;
     const auto last = render::last_scatter(solution, camera, {.samples = 64});
-    const auto two = render::two_pass(solution, camera, {.samples = 1024, .scatterings = 1});
+    const auto two = render::two_pass(solution, camera, {.samples = 512, .scatterings = 1});
     const auto scattered = [](const render::Image& image) {
         return test::over(image, "single_scattering").mean +
                test::over(image, "multiple_scattering").mean;
@@ -192,7 +204,8 @@ TEST_CASE("Last scatter is what two_pass finds by one scattering") {
         for (const float e : image->find("error")->values) noise += double(e) * double(e);
     noise = std::sqrt(noise) / double(camera.width * camera.height);
     const double mean = scattered(two);
+    // Cubes are 16 pixels wide, and linear between their places: 0.5 %.
     INFO(scattered(last) / mean << " with noise of " << noise / mean);
-    CHECK(std::abs(scattered(last) - mean) < std::hypot(4.5 * noise, 0.01 * mean));
+    CHECK(std::abs(scattered(last) - mean) < std::hypot(4.5 * noise, 0.005 * mean));
     CHECK(noise < 0.01 * mean);
 }
