@@ -51,7 +51,8 @@ class LastScatter {
           e_(*solution.enclosure),
           whole_(with_whole_extinction(e_)),
           bands_(e_.bands),
-          eye_(mesh::locate(e_.mesh, camera.eye)),
+          eye_(camera.eye),
+          eye_tet_(mesh::locate(e_.mesh, camera.eye)),
           seen_(solution, direct_tolerance),
           media_(e_),
           lights_(e_),
@@ -62,8 +63,7 @@ class LastScatter {
           points_(stratified) {}
 
     void sample(mesh::Ray ray, const SampleAt& at, RandomNumbers& random, Seen& seen) const {
-        const TetId start = mesh::locate(e_.mesh, ray.origin, eye_.valid() ? eye_ : TetId(0));
-        const mesh::Entry entry = mesh::entry_of(e_.mesh, ray, start);
+        const mesh::Entry entry = mesh::entry_near(e_.mesh, ray, eye_, eye_tet_);
         if (!entry.tet.valid()) return seen_.leave(seen);
         if (e_.solid(entry.tet)) return;
         ray.origin += entry.distance * ray.direction;
@@ -257,7 +257,8 @@ class LastScatter {
     const radiosity::Enclosure& e_;
     const radiosity::Enclosure whole_;
     std::size_t bands_;
-    TetId eye_;
+    Point eye_;
+    TetId eye_tet_;
     SeenSolution seen_;
     PathMedia media_;
     PathLights lights_;
