@@ -16,10 +16,8 @@ namespace tyndall::render {
 namespace {
 
 constexpr NamedRenderer all[]{
-    {"line_of_sight", line_of_sight},
-    {"projected_zones", projected_zones},
-    {"last_scatter", last_scatter, true},
-    {"two_pass", two_pass, true},
+    {"line_of_sight", line_of_sight},         {"projected_zones", projected_zones},
+    {"last_scatter", last_scatter, true},     {"two_pass", two_pass, true},
     {"path_traced", path_traced_scene, true},
 };
 
