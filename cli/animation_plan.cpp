@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "cli/job.h"
+#include "radiosity/moving_bodies.h"
 #include "radiosity/source_groups.h"
 
 namespace tyndall::cli {
@@ -51,6 +52,23 @@ bool sums_are_cheaper(const std::vector<SceneFile>& frames, const Segment& segme
     return different > (groups <= 1 ? 1 : groups + 1);
 }
 
+// Whether a frame goes on with a segment: both kinds of change at once would be neither.
+bool joins(const std::vector<SceneFile>& frames, std::size_t frame, Segment& segment) {
+    const SceneFile &first = frames[segment.first], &now = frames[frame];
+    if (!same_solve(first, now)) return false;
+    if (const auto moved = radiosity::moved_surfaces(first.scene, now.scene)) {
+        if (segment.emissions_change && !moved->empty()) return false;
+        std::vector<std::size_t> all;
+        std::set_union(segment.moving.begin(), segment.moving.end(), moved->begin(), moved->end(),
+                       std::back_inserter(all));
+        segment.moving = std::move(all);
+        return true;
+    }
+    if (!segment.moving.empty()) return false;
+    segment.emissions_change = true;
+    return compare_scenes(first.scene, now.scene).change <= SceneChange::emission;
+}
+
 }  // namespace
 
 std::vector<radiosity::Scene> scenes_of(const std::vector<SceneFile>& frames,
@@ -65,17 +83,14 @@ AnimationPlan plan_animation(const std::vector<SceneFile>& frames) {
     for (std::size_t f = 0; f < frames.size(); ++f) {
         plan.changed.push_back(f == 0 ? std::vector<std::string>()
                                       : changes(frames[f - 1], frames[f]));
-        const bool joins =
-            f > 0 &&
-            compare_scenes(frames[plan.segments.back().first].scene, frames[f].scene).change <=
-                SceneChange::emission &&
-            same_solve(frames[plan.segments.back().first], frames[f]);
-        if (!joins) plan.segments.push_back({f, f});
+        if (f == 0 || !joins(frames, f, plan.segments.back()))
+            plan.segments.push_back({f, f, false, {}});
         Segment& segment = plan.segments.back();
         segment.end = f + 1;
         segment.camera_moves = segment.camera_moves || !same_view(frames[segment.first], frames[f]);
     }
-    for (Segment& segment : plan.segments) segment.superposed = sums_are_cheaper(frames, segment);
+    for (Segment& segment : plan.segments)
+        segment.superposed = segment.moving.empty() && sums_are_cheaper(frames, segment);
     return plan;
 }
 

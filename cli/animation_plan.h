@@ -9,9 +9,12 @@
 
 namespace tyndall::cli {
 
-// Frames in a row whose scenes differ in emissions at most, and are solved with the same settings.
+// Frames in a row whose scenes differ in emissions at most, or in the places of some surfaces at
+// most, and are solved with the same settings.
 struct Segment {
     std::size_t first = 0, end = 0;
+    bool emissions_change = false;
+    std::vector<std::size_t> moving;  // surfaces that move; solved as bodies where they can be
     // By sums of unit solutions, where that takes fewer solves than there are different frames.
     bool superposed = false;
     bool camera_moves = false;  // refinement then serves no view: it would be one frame's

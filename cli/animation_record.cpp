@@ -25,6 +25,7 @@ Json json_of(std::size_t frame, const FrameRecord& record) {
             {"done", record.done},
             {"cpu_seconds", record.cpu_seconds},
             {"picture_cpu_seconds", record.picture_cpu_seconds},
+            {"rays_share", record.rays_share ? Json(*record.rays_share) : Json()},
             {"estimated_error", record.estimated_error},
             {"patches", record.patches},
             {"zones", record.zones},
@@ -32,22 +33,27 @@ Json json_of(std::size_t frame, const FrameRecord& record) {
 }
 
 FrameRecord record_of(const Json& json) {
-    return {json.at("changed"),         json.at("done"),
-            json.at("cpu_seconds"),     json.at("picture_cpu_seconds"),
-            json.at("estimated_error"), json.at("patches"),
-            json.at("zones"),           json.at("warnings")};
+    FrameRecord record{json.at("changed"),     json.at("done"),
+                       json.at("cpu_seconds"), json.at("picture_cpu_seconds"),
+                       std::nullopt,           json.at("estimated_error"),
+                       json.at("patches"),     json.at("zones"),
+                       json.at("warnings")};
+    if (json.at("rays_share").is_number()) record.rays_share = json.at("rays_share").get<double>();
+    return record;
 }
 
 Json json_of(const UnitsRecord& units) {
     return {{"frames", {units.first, units.end - 1}},
             {"groups", units.groups},
+            {"moving", units.moving},
             {"solves", units.solves},
             {"cpu_seconds", units.cpu_seconds}};
 }
 
 UnitsRecord units_of(const Json& json) {
     return {json.at("frames").at(0), json.at("frames").at(1).get<std::size_t>() + 1,
-            json.at("groups"), json.at("solves"), json.at("cpu_seconds")};
+            json.at("groups"),       json.at("moving"),
+            json.at("solves"),       json.at("cpu_seconds")};
 }
 
 void remove_files(const fs::path& folder, std::initializer_list<const char*> extensions) {

@@ -15,18 +15,21 @@ namespace tyndall::cli {
 // A frame that is whole, as report.json tells of it.
 struct FrameRecord {
     std::vector<std::string> changed;  // since the frame before
-    std::string done;                  // kept, superposed or solved
+    std::string done;                  // kept, superposed, moved or solved
     double cpu_seconds = 0.0;          // of its light
     double picture_cpu_seconds = 0.0;
+    // Rays walked for this frame's light, of those of a full solve: of moved frames; else none [-].
+    std::optional<double> rays_share;
     double estimated_error = 0.0;
     std::size_t patches = 0, zones = 0;
     std::vector<std::string> warnings;
 };
 
-// Unit solutions that frames are sums of.
+// Solutions that frames are sums of, or the one that frames with moved bodies begin with.
 struct UnitsRecord {
     std::size_t first = 0, end = 0;                // frames
-    std::vector<std::vector<std::string>> groups;  // their sources
+    std::vector<std::vector<std::string>> groups;  // their sources; none where bodies move
+    std::vector<std::string> moving;               // surfaces that move
     std::size_t solves = 0;
     double cpu_seconds = 0.0;
 };

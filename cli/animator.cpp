@@ -4,9 +4,11 @@
 
 #include "cli/job.h"
 #include "mesh/input_error.h"
+#include "radiosity/moving_bodies.h"
 #include "radiosity/resources.h"
 #include "radiosity/solution_file.h"
 #include "render/image_files.h"
+#include "render/renderers.h"
 
 namespace tyndall::cli {
 namespace {
@@ -16,6 +18,12 @@ using radiosity::cpu_seconds;
 constexpr const char* no_view =
     "the camera moves while the light stays: elements are refined for the solution as a whole "
     "(solve.refinement \"adaptive\"), not for one frame's view.";
+
+std::size_t rays_of(const radiosity::Solution& solution) {
+    std::size_t rays = 0;
+    for (const auto& pass : solution.report.passes) rays += pass.rays;
+    return rays;
+}
 
 }  // namespace
 
@@ -44,7 +52,7 @@ void Animator::shoot(std::size_t index) {
                                     progress_.callback());
     if (progress_.stopped()) return;
     shot_ = index;
-    UnitsRecord units{segment.first, segment.end, {}, shots_.solves, cpu_seconds() - began};
+    UnitsRecord units{segment.first, segment.end, {}, {}, shots_.solves, cpu_seconds() - began};
     for (const auto& group : shots_.groups.groups) units.groups.push_back(group.sources);
     record_.add(std::move(units));
 }
@@ -60,6 +68,66 @@ void Animator::solve(std::size_t frame) {
                                             progress_.callback());
 }
 
+// All frames are asked, so that a part of them is solved as all would be.
+bool Animator::bodies_move(std::size_t index) {
+    const Segment& segment = plan_.segments[index];
+    if (segment.moving.empty()) return false;
+    if (moving_.segment == index) return moving_.obstacle.empty();
+    moving_ = {};
+    moving_.segment = index;
+    SceneFile still = frames_[segment.first];
+    moving_.obstacle = radiosity::why_nothing_kept(still.solve);
+    for (std::size_t f = segment.first; f < segment.end && moving_.obstacle.empty(); ++f) {
+        const std::string& method = frames_[f].render.method;
+        if (!frames_[f].cameras.empty() && !render::renderer_named(method).bodies)
+            moving_.obstacle = fmt::format("is drawn by \"{}\"", method);
+    }
+    if (!moving_.obstacle.empty()) return false;
+    still.scene = radiosity::without_surfaces(still.scene, segment.moving);
+    moving_.still = mesh_scene(still, progress_);
+    for (std::size_t f = segment.first; f < segment.end && moving_.obstacle.empty(); ++f)
+        moving_.obstacle =
+            radiosity::why_no_bodies(frames_[f].scene, segment.moving, *moving_.still);
+    return moving_.obstacle.empty();
+}
+
+void Animator::begin_moving(std::size_t index) {
+    const Segment& segment = plan_.segments[index];
+    const SceneFile& file = frames_[segment.first];
+    const double began = cpu_seconds();
+    auto kept = std::make_shared<radiosity::KeptLight>(file.scene.bands);
+    radiosity::Passes passes;
+    passes.keep = kept;
+    moving_.first = radiosity::solve_adaptively(
+        std::make_shared<const radiosity::Enclosure>(
+            radiosity::with_bodies(*moving_.still, file.scene, segment.moving)),
+        file.solve, view(segment.first), progress_.callback(), passes);
+    if (progress_.stopped()) return;
+    moving_.rays = rays_of(moving_.first);
+    moving_.kept = std::move(kept);
+    UnitsRecord units{segment.first, segment.end, {}, {}, 1, cpu_seconds() - began};
+    for (const std::size_t s : segment.moving) units.moving.push_back(file.scene.surfaces[s].name);
+    record_.add(std::move(units));
+}
+
+void Animator::move(std::size_t frame, FrameRecord& record) {
+    const SceneFile& file = frames_[frame];
+    const Segment& segment = plan_.segments[segment_[frame]];
+    record.rays_share = 0.0;
+    if (radiosity::compare_scenes(frames_[segment.first].scene, file.scene).change ==
+        radiosity::SceneChange::nothing) {
+        solution_ = moving_.first;
+        return;
+    }
+    radiosity::Passes passes;
+    passes.moved = moving_.kept;
+    solution_ = radiosity::solve_adaptively(
+        std::make_shared<const radiosity::Enclosure>(
+            radiosity::with_bodies(*moving_.still, file.scene, segment.moving)),
+        file.solve, view(frame), progress_.callback(), passes);
+    record.rays_share = static_cast<double>(rays_of(solution_)) / static_cast<double>(moving_.rays);
+}
+
 const radiosity::Solution& Animator::light(std::size_t frame, FrameRecord& record) {
     const std::size_t index = segment_[frame];
     const bool same =
@@ -67,15 +135,22 @@ const radiosity::Solution& Animator::light(std::size_t frame, FrameRecord& recor
         radiosity::compare_scenes(frames_[*solved_].scene, frames_[frame].scene).change ==
             radiosity::SceneChange::nothing;
     if (plan_.segments[index].superposed && shot_ != index) shoot(index);
+    const bool moves = !same && bodies_move(index);
+    if (moves && !moving_.kept) begin_moving(index);
     const double began = cpu_seconds();  // units have a record of their own
     if (!same && !progress_.stopped()) {
         solved_.reset();
         if (plan_.segments[index].superposed)
             superpose(frame);
+        else if (moves)
+            move(frame, record);
         else
             solve(frame);
     }
-    record.done = same ? "kept" : plan_.segments[index].superposed ? "superposed" : "solved";
+    record.done = same                               ? "kept"
+                  : plan_.segments[index].superposed ? "superposed"
+                  : moves                            ? "moved"
+                                                     : "solved";
     record.cpu_seconds = cpu_seconds() - began;
     if (!progress_.stopped()) solved_ = frame;
     return solution_;
@@ -121,6 +196,10 @@ bool Animator::make(std::size_t frame) {
         record.zones = solution.report.zones;
         record.warnings = solution.report.warnings;
         if (plan_.segments[segment_[frame]].camera_moves) record.warnings.push_back(no_view);
+        if (record.done == "solved" && !moving_.obstacle.empty() &&
+            moving_.segment == segment_[frame])
+            record.warnings.push_back(fmt::format(
+                "what moves is solved anew in every frame, since it {}.", moving_.obstacle));
         record_.add(frame, std::move(record));
         return true;
     } catch (const mesh::InputError& error) {

@@ -27,6 +27,11 @@ class Animator {
     void solve(std::size_t frame);
     void superpose(std::size_t frame);
     void shoot(std::size_t segment);
+    // A segment's frames with moved bodies: whether they can be had from one solution; that
+    // solution, and a frame's.
+    bool bodies_move(std::size_t segment);
+    void begin_moving(std::size_t segment);
+    void move(std::size_t frame, FrameRecord& record);
     bool write(std::size_t frame, const radiosity::Solution& solution);
     double white_of(std::size_t frame, const render::Image& image);
     std::optional<radiosity::View> view(std::size_t frame) const;
@@ -38,6 +43,16 @@ class Animator {
     std::vector<std::size_t> segment_;  // of each frame
     std::optional<std::size_t> shot_;   // the segment whose units there are
     radiosity::UnitShots shots_;
+    // Of the segment whose surfaces move: what stands still, why they cannot be bodies (empty: they
+    // can), the light that its frames begin with, and the first one's solution.
+    struct Moving {
+        std::optional<std::size_t> segment;
+        std::shared_ptr<const radiosity::Enclosure> still;
+        std::string obstacle;
+        std::shared_ptr<radiosity::KeptLight> kept;
+        radiosity::Solution first;
+        std::size_t rays = 0;  // of its solve
+    } moving_;
     std::optional<std::size_t> solved_;  // the frame whose solution there is
     radiosity::Solution solution_;
 };

@@ -11,6 +11,7 @@
 
 #include "mesh/input_error.h"
 #include "mesh/walk.h"
+#include "radiosity/open_places.h"
 #include "radiosity/point_set.h"
 #include "radiosity/probe.h"
 
@@ -90,7 +91,7 @@ void add_on_sides(const radiosity::Enclosure& e, std::size_t count, std::uint64_
 radiosity::Spectrum held_in_space(const Solution& s, Point x) {
     const auto& e = *s.enclosure;
     const TetId tet = mesh::locate(e.mesh, x);
-    if (!tet.valid() || e.solid(tet)) return {};
+    if (!tet.valid() || e.solid(tet) || radiosity::covered(e, x)) return {};
     if (e.medium_of(tet) == none) return radiosity::Spectrum(e.bands, 0.0);
     const auto zone = s.forest.leaf_at(mesh::root_zone(tet), x);
     radiosity::Spectrum source;

@@ -19,6 +19,18 @@ struct BaseFacet {
     bool operator==(const BaseFacet&) const = default;
 };
 
+// Facets that stand in the tets without being cut into them: no tet has them on a face, and a walk
+// ends where it meets them (body.h).
+struct Body {
+    FacetId first, end;  // of its facets
+    Point centre{0};     // of a sphere that holds it [m]
+    double radius = 0.0;
+    bool closed = false;  // its fronts look outward all round: nothing is inside
+    double gap = 0.0;     // rays do not see it before this distance from their origin [m]
+
+    bool operator==(const Body&) const = default;
+};
+
 struct BaseMesh {
     std::vector<Point> points;                  // [m]
     std::vector<std::array<VertexId, 4>> tets;  // positively oriented: (b−a)×(c−a)·(d−a) > 0
@@ -30,6 +42,7 @@ struct BaseMesh {
     std::vector<RegionId> regions;  // of each tet: tets connected without crossing any facet
     std::size_t region_count = 0;
     Point hull_min{0}, hull_max{0};  // the box that the mesh fills [m]
+    std::vector<Body> bodies;        // their facets come last
 
     // The same to the last bit: a forest of one is a forest of the other.
     bool operator==(const BaseMesh&) const = default;

@@ -42,6 +42,25 @@ struct WalkEnd {
     double distance = 0.0;    // along the ray [m]
 };
 
+// Where a ray meets a body first.
+struct BodyHit {
+    FacetId facet;  // none: it meets none
+    Side side = Side::front;
+    double distance = std::numeric_limits<double>::infinity();  // [m]
+};
+
+// Whether a ray comes near enough to a body to meet it.
+inline bool meets_sphere(const Body& body, const Ray& ray) {
+    const auto to = body.centre - ray.origin;
+    const double along = glm::dot(to, ray.direction);
+    const double beyond = glm::dot(to, to) - body.radius * body.radius;  // of the sphere, if > 0
+    return beyond <= 0.0 ||
+           (along > 0.0 && beyond <= along * along && along - body.radius <= ray.length);
+}
+
+// The first facet of a body that a ray meets within its length (body.h).
+BodyHit first_body(const BaseMesh& mesh, const Ray& ray);
+
 namespace walk_detail {
 
 // The projection of a vertex: (u, v) across the ray, w along it.

@@ -65,9 +65,10 @@ inline Exit first_exit(const BaseMesh& mesh, const Ray& ray, WalkStart start, Fr
 
 }  // namespace walk_detail
 
+namespace walk_detail {
+
 template <Passes passes, class OnTet>
-WalkEnd walk(const BaseMesh& mesh, const Ray& ray, WalkStart start, OnTet&& on_tet) {
-    using namespace walk_detail;
+WalkEnd walk_tets(const BaseMesh& mesh, const Ray& ray, WalkStart start, OnTet&& on_tet) {
     Frame project(ray);
     TetId tet = start.tet;
     double t = 0.0;
@@ -111,6 +112,22 @@ WalkEnd walk(const BaseMesh& mesh, const Ray& ray, WalkStart start, OnTet&& on_t
         exit = exit_from_face(exit, project(mesh, ids[id]), ia, ib, ic);
     }
     return {Arrival::lost, {}, Side::front, tet, t};
+}
+
+}  // namespace walk_detail
+
+// A body ends the walk as the ray's length would.
+template <Passes passes, class OnTet>
+WalkEnd walk(const BaseMesh& mesh, const Ray& ray, WalkStart start, OnTet&& on_tet) {
+    if (mesh.bodies.empty() || passes == Passes::everything)
+        return walk_detail::walk_tets<passes>(mesh, ray, start, on_tet);
+    const BodyHit hit = first_body(mesh, ray);
+    if (!hit.facet.valid()) return walk_detail::walk_tets<passes>(mesh, ray, start, on_tet);
+    WalkEnd end = walk_detail::walk_tets<passes>(mesh, {ray.origin, ray.direction, hit.distance},
+                                                 start, on_tet);
+    if (end.arrival == Arrival::ended)
+        end = {Arrival::struck, hit.facet, hit.side, end.tet, hit.distance};
+    return end;
 }
 
 }  // namespace tyndall::mesh

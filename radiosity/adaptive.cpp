@@ -1,25 +1,21 @@
 #include "radiosity/adaptive.h"
 
-#include <fmt/format.h>
 #include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "mesh/entry.h"
-#include "mesh/input_error.h"
 #include "radiosity/balance.h"
 #include "radiosity/error_estimate.h"
-#include "radiosity/exchange_methods.h"
 #include "radiosity/incident_lit.h"
 #include "radiosity/leaf_light.h"
 #include "radiosity/resources.h"
-#include "radiosity/smoothing.h"
+#include "radiosity/solve_checks.h"
 #include "radiosity/solve_report.h"
-#include "radiosity/solvers.h"
 #include "radiosity/start_elements.h"
 #include "radiosity/temperatures.h"
 #include "radiosity/thick_zones.h"
+#include "radiosity/view_radiance.h"
 
 namespace tyndall::radiosity {
 namespace {
@@ -47,15 +43,6 @@ std::optional<ShadowBoundaries> shadow_boundaries(const Enclosure& enclosure,
     return ShadowBoundaries(enclosure, options.direct_light == DirectLightMode::closed_form);
 }
 
-void check_base(const Enclosure& enclosure, const mesh::BaseMesh& kept) {
-    if (enclosure.mesh == kept) return;
-    throw mesh::InputError(fmt::format(
-        "the mesh to go on with has another base mesh ({} tetrahedra; here {}, or other corners): "
-        "the geometry has changed, or a file that the scene names. Give the same scene and files, "
-        "or begin anew.",
-        kept.tets.size(), enclosure.mesh.tets.size()));
-}
-
 // The loop's state, step by step; each step leaves something that a valid solution can be made of.
 class Loop {
   public:
@@ -76,13 +63,15 @@ class Loop {
           direct_(*enclosure_, mesh_, light_, boundaries_ ? &*boundaries_ : nullptr),
           leaf_light_(*enclosure_, mesh_, direct_, options.radiance) {
         if (options_.refinement < Refinement::view) view_.reset();
+        if (kept_.keep) light_.keep_in(&kept_.keep->direct);
+        if (kept_.moved) light_.take_from(kept_.moved->direct, kept_.moved->enclosure->mesh.bodies);
         begin_pass();
     }
 
     Solution run() {
         make_initial_mesh();
         Elements elements = start_elements(*enclosure_, mesh_.forest(), options_.start);
-        if (adaptive() && asks_for(options_, "optical_thickness") &&
+        if (!kept_.moved && adaptive() && asks_for(options_, "optical_thickness") &&
             options_.start != Start::single_zone && refine_thick_zones(elements))
             elements = elements_of_leaves(*enclosure_, mesh_.forest());
         for (std::size_t promotions = options_.promotions;; --promotions) {
@@ -98,18 +87,20 @@ class Loop {
     // Coarse solution of the elements, refinement to `looser` times the error, gather.
     Solution turn(Elements elements, double looser, bool last) {
         const double goal = looser * looser * options_.error * options_.error;
-        CoarseSolution coarse(*enclosure_, mesh_.forest(), std::move(elements), options_,
-                              progress_);
+        std::optional<KeptRows> rows;
+        if (kept_.moved)
+            rows.emplace(KeptRows{
+                {*kept_.moved->enclosure, kept_.moved->coarse_forest, kept_.moved->elements},
+                kept_.moved->areas});
+        if (kept_.keep) kept_.keep->coarse_forest = mesh_.forest();
+        CoarseSolution coarse(*enclosure_, mesh_.forest(), std::move(elements), options_, progress_,
+                              rows ? &*rows : nullptr);
         rays_ += coarse.rays();
-        direct_.update();
-        solve(coarse);
-        rate(coarse);
-        squared_error_ = 0.0;
-        end_pass("coarse solution");
-        show("coarse solution", coarse);
+        begin(coarse);
 
         const Importance importance(*enclosure_, mesh_.forest(), view_, scale_);
         if (last && kept_.begin_with) mesh_.replay(kept_.begin_with->forest);
+        if (kept_.moved) mesh_.replay(kept_.moved->forest);
         direct_.update();
         note(direct_.refine(importance, adaptive() ? direct_share * goal : 1e300, limits(0.8),
                             progress_,
@@ -147,22 +138,62 @@ class Loop {
         return solution;
     }
 
+    // A first solution; of bodies that have moved the one before is near enough to weigh errors by.
+    void begin(CoarseSolution& coarse) {
+        if (kept_.moved) {
+            scale_ = kept_.moved->scale;
+            if (!(scale_.picture > 0.0)) view_.reset();
+        } else {
+            direct_.update();
+            solve(coarse);
+            rate(coarse);
+        }
+        squared_error_ = 0.0;
+        end_pass("coarse solution");
+        if (!kept_.moved) show("coarse solution", coarse);
+    }
+
     // Indirect light of the leaves: zones first, for half of the goal, then patches, which get what
     // zones leave.
     void gather(const CoarseSolution& coarse, const LitPatches& lit, const Importance& importance,
                 double goal, IndirectRefiner& indirect) {
         IndirectSources sources{leaf_light_.sources(coarse, &lit), &lit, gather_detail()};
-        const auto zones =
-            indirect.refine_zones(sources, importance, 0.5 * goal, limits(1.0), progress_);
+        std::optional<GatherChange> change;
+        if (kept_.moved) change.emplace(*kept_.moved, *enclosure_, change_sources(coarse));
+        mesh_.samples().take_from(change ? &*change : nullptr);
+        mesh_.samples().keep_in(kept_.keep ? &kept_.keep->gathers : nullptr);
+        const Fields in_zones = kept_.keep ? sources.fields : Fields{};
+        RefineLimits all = limits(1.0);
+        all.grow = !kept_.moved;
+        const auto zones = indirect.refine_zones(sources, importance, 0.5 * goal, all, progress_);
         note(zones);
         direct_.update();
         direct_.sample_means();
         leaf_light_.update_zones(coarse, indirect, sources.fields);
-        note(indirect.refine_patches(sources, importance,
-                                     goal - std::min(zones.squared_error, 0.5 * goal), limits(1.0),
-                                     progress_));
+        note(indirect.refine_patches(
+            sources, importance, goal - std::min(zones.squared_error, 0.5 * goal), all, progress_));
         direct_.update();
         direct_.sample_means();
+        mesh_.samples().take_from(nullptr);
+        if (kept_.keep) keep(coarse, in_zones, sources);
+    }
+
+    // r and H of the elements that changes are told by (KeptLight::gathered_from).
+    std::vector<double> change_sources(const CoarseSolution& coarse) const {
+        std::vector<double> result = gathered_from(coarse, incident_direct_);
+        result.insert(result.end(), incident_lit_.begin(), incident_lit_.end());
+        return result;
+    }
+
+    void keep(const CoarseSolution& coarse, const Fields& in_zones,
+              const IndirectSources& on_patches) {
+        KeptLight& kept = *kept_.keep;
+        light_.keep_in(nullptr);
+        kept.elements = coarse.elements();
+        kept.areas = coarse.all_areas();
+        kept.gathered_from = change_sources(coarse);
+        kept.scale = scale_;
+        kept.finish(enclosure_, mesh_.forest(), in_zones, on_patches.fields, on_patches.detail);
     }
 
     // Before the last turn the mesh to begin with is not in yet: what there is, is coarser.
@@ -229,6 +260,7 @@ class Loop {
     DirectRefiner direct_;
     LeafLight leaf_light_;
     std::vector<double> incident_direct_;  // of the coarse elements
+    std::vector<double> incident_lit_;     // the same, from lit patches
     Spectrum escaped_direct_;              // [W]
     double direct_power_check_ = 0.0;
     Importance::Scale scale_;
@@ -242,6 +274,7 @@ class Loop {
 void Loop::make_initial_mesh() {
     // Fine enough for smooth indirect light, coarse enough that rows cost about a second.
     ElementMesh::InitialSize size{0.0, 4000, 1500};
+    if (kept_.moved) return mesh_.replay(kept_.moved->coarse_forest);
     if (options_.start == Start::single_zone) return;
     if (options_.element_size > 0.0)
         size = {options_.element_size, options_.max_elements, options_.max_elements};
@@ -282,67 +315,29 @@ bool Loop::refine_thick_zones(const Elements& elements) {
 // Direct light of the leaves summed into the coarse elements above them, then the linear system.
 // With `lit`, what patches reflect of it is not left to the rows.
 void Loop::solve(CoarseSolution& coarse, const LitPatches* lit) {
-    const std::size_t bands = enclosure_->bands;
     const Elements& e = coarse.elements();
-    incident_direct_.assign(e.size() * bands, 0.0);
-    std::vector<double> measure(e.size() * bands, 0.0);
-    const auto add = [&](auto node, std::uint32_t element) {
-        for (std::size_t b = 0; b < bands; ++b) {
-            const WeighedMean one = leaf_light_.weighed_direct(node, b);
-            measure[element * bands + b] += one.measure;
-            incident_direct_[element * bands + b] += one.measure * one.mean;
-        }
-    };
-    const Forest& forest = mesh_.forest();
-    for (const ZoneId z : mesh_.zones())
-        if (forest.is_leaf(z)) add(z, leaf_light_.element_above(z, e.of_zone));
-    for (const PatchId p : mesh_.patches())
-        if (forest.is_leaf(p)) add(p, leaf_light_.element_above(p, e.of_patch));
-    for (std::size_t k = 0; k < measure.size(); ++k)
-        if (measure[k] > 0.0) incident_direct_[k] /= measure[k];
+    incident_direct_ = leaf_light_.means_of_direct(e);
     if (escaped_direct_.empty())
         escaped_direct_ = escaped_direct(*enclosure_, coarse, 16384, options_.seed);
     direct_power_check_ =
         conserve_direct_power(*enclosure_, e, light_, escaped_direct_, incident_direct_);
     const std::size_t rays = coarse.rays();
-    if (lit)
-        coarse.solve(incident_direct_, incident_lit(*enclosure_, forest, e, *lit));
-    else
+    if (lit) {
+        incident_lit_ = incident_lit(*enclosure_, mesh_.forest(), e, *lit);
+        coarse.solve(incident_direct_, incident_lit_);
+    } else {
         coarse.solve(incident_direct_);
+    }
     rays_ += coarse.rays() - rays;  // of shots on the fly
 }
 
 // The picture's mean radiance and the solution's mean square, against which errors are measured.
 void Loop::rate(const CoarseSolution& coarse) {
-    const Elements& e = coarse.elements();
-    double square = 0.0, capacity = 0.0;
-    for (std::size_t i = 0; i < e.size(); ++i)
-        for (std::size_t b = 0; b < e.bands; ++b) {
-            const std::size_t k = i * e.bands + b;
-            const double x = coarse.reflected(i, b);
-            square += e.capacity[k] * x * x;
-            capacity += e.capacity[k];
-        }
-    scale_.solution = capacity > 0.0 ? square / capacity : 0.0;
+    scale_.solution = coarse.mean_square();
     if (!view_) return;
-    const TetId eye = mesh::locate(enclosure_->mesh, view_->eye);
-    const Fields sources = leaf_light_.sources(coarse);
-    const GatherScene scene(*enclosure_, mesh_.forest(), sources);
-    constexpr int across = 32, down = 24;
-    Spectrum radiance(e.bands);
-    double sum = 0.0;
-    for (int y = 0; y < down; ++y)
-        for (int x = 0; x < across; ++x) {
-            mesh::Ray ray =
-                view_->ray(2.0 * (x + 0.5) / across - 1.0, 1.0 - 2.0 * (y + 0.5) / down);
-            const mesh::Entry entry = mesh::entry_near(enclosure_->mesh, ray, view_->eye, eye);
-            if (!entry.tet.valid() || enclosure_->solid(entry.tet)) continue;
-            ray.origin += entry.distance * ray.direction;
-            radiance_along(scene, ray, {entry.tet}, radiance);
-            sum += mean_over_bands(radiance);
-        }
-    scale_.picture = sum / (across * down);
-    if (!(sum > 0.0)) view_.reset();  // it sees nothing
+    scale_.picture = mean_radiance(
+        GatherScene(*enclosure_, mesh_.forest(), leaf_light_.sources(coarse)), *enclosure_, *view_);
+    if (!(scale_.picture > 0.0)) view_.reset();  // it sees nothing
 }
 
 // The leaves' fields, given indirect light. Their errors are those of direct light alone.
@@ -389,17 +384,7 @@ Solution Loop::collect(const CoarseSolution& coarse, Field&& indirect) {
 Solution solve_adaptively(std::shared_ptr<const Enclosure> enclosure, const SolveOptions& options,
                           const std::optional<View>& view, const ProgressCallback& progress,
                           const Passes& passes) {
-    if (!exchange_method(options.exchange).detail && options.row_detail > 0.0)
-        throw mesh::InputError(
-            fmt::format("level of detail in rows (row_detail) is made by walking, not by \"{}\". "
-                        "Set row_detail to 0, or exchange to \"walked\".",
-                        options.exchange));
-    check_smoothing(options.exchange_settings.smoothing, options.row_detail);
-    require_settings(exchange_method(options.exchange), options.exchange_settings);
-    check_solver(options);
-    require_media(exchange_method(options.exchange), *enclosure);
-    check_indicators(options);
-    if (passes.begin_with) check_base(*enclosure, passes.begin_with->base);
+    check_solve(*enclosure, options, passes);
     std::optional<tbb::global_control> threads;
     if (options.threads > 0)
         threads.emplace(tbb::global_control::max_allowed_parallelism, options.threads);

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "radiosity/kept_light.h"
 #include "radiosity/progress.h"
 #include "radiosity/solution.h"
 #include "radiosity/view.h"
@@ -29,6 +30,12 @@ struct Passes {
     // The mesh of such a solution, to begin refinement with, after the same initial mesh.
     std::shared_ptr<const KeptMesh> begin_with{};
     bool frozen = false;  // nothing is bisected beyond it
+    // What the solve has made is kept here, for scenes in which bodies have moved (kept_light.h).
+    // The same bits with and without.
+    std::shared_ptr<KeptLight> keep{};
+    // What was kept before bodies have moved: the solve begins with it, its mesh and all, and makes
+    // anew what has changed. fits(*moved, enclosure) must hold, and options be the same.
+    std::shared_ptr<const KeptLight> moved{};
 };
 
 // Purpose: solve the enclosure to the error goal, as the literature has it (docs/theory.md):
@@ -44,6 +51,8 @@ struct Passes {
 //   same.
 // Passes: the mesh of an interrupted run to go on from; a run gone on with has the same goal, not
 //   the same bits.
+// Moved: 1 and 4 by what is kept, corrected (48), (49); 2 where a body comes, or came, between a
+//   place and a light; its report's rays are those that were walked.
 // Errors: mesh::InputError for unknown methods, a mesh that cannot fit max_elements, a mesh to
 // begin
 //   with that is of another base mesh or of another initial mesh.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "mesh/body.h"
 #include "radiosity/light_sources.h"
 #include "radiosity/optical_depth.h"
 #include "radiosity/point_set.h"
@@ -78,9 +79,7 @@ class Escape {
             const auto w = uniform_in_triangle(u[0], u[1]);
             const Point x =
                 w[0] * forest.point(c[0]) + w[1] * forest.point(c[1]) + w[2] * forest.point(c[2]);
-            add({x, cosine_direction(n, u[3], u[4])},
-                mesh::start_on(enclosure_.mesh, FacetId(side / 2),
-                               side % 2 ? Side::back : Side::front),
+            add({x, cosine_direction(n, u[3], u[4])}, mesh::start_before(enclosure_.mesh, side, x),
                 [&](std::size_t b) {
                     return pi * area * coarse_.split_emission(i, b) /
                            static_cast<double>(std::min(count, points_.size()));

@@ -31,7 +31,8 @@ CoarseSolution::CoarseSolution(const Enclosure& enclosure, const Forest& forest,
     : CoarseSolution(enclosure, forest, elements_of_leaves(enclosure, forest), options, progress) {}
 
 CoarseSolution::CoarseSolution(const Enclosure& enclosure, const Forest& forest, Elements elements,
-                               const SolveOptions& options, const ProgressCallback& progress)
+                               const SolveOptions& options, const ProgressCallback& progress,
+                               const KeptRows* kept)
     : enclosure_(enclosure),
       forest_(forest),
       options_(options),
@@ -55,19 +56,27 @@ CoarseSolution::CoarseSolution(const Enclosure& enclosure, const Forest& forest,
         closure_.resize(distinct.size(), 0.0);
         for (const std::size_t band : distinct) find_outside(band);
     } else {
-        make_areas(distinct);
+        make_areas(distinct, kept);
     }
 }
 
 // Of bands with extinctions that differ; by one walk for all, where the method can.
-void CoarseSolution::make_areas(std::span<const std::size_t> bands) {
+void CoarseSolution::make_areas(std::span<const std::size_t> bands, const KeptRows* kept) {
     const NamedExchangeMethod& method = exchange_method(options_.exchange);
     const Discretization d{enclosure_, forest_, elements_};
     ExchangeOptions chosen = exchange_options(bands.front());
     chosen.detail = options_.row_detail;
     chosen.radiance = method.moments ? options_.radiance : Radiance::constant;
     chosen.progress = progress_;
-    if (method.of_bands && bands.size() > 1) {
+    if (kept) {
+        std::atomic<std::size_t> walked = 0;
+        for (const std::size_t band : bands) {
+            chosen.band = band;
+            areas_.push_back(
+                moved_rows(d, {kept->discretization, kept->areas[areas_.size()]}, chosen, walked));
+        }
+        rays_ += walked;
+    } else if (method.of_bands && bands.size() > 1) {
         areas_ = all_rows(method.of_bands, d, chosen, bands);
         rays_ += elements_.size() * options_.rays;
     } else {
@@ -194,6 +203,16 @@ std::size_t CoarseSolution::memory() const {
     for (const auto& outside : outside_) bytes += outside.size() * sizeof(double);
     for (const auto& areas : areas_) bytes += areas.memory();
     return bytes;
+}
+
+double CoarseSolution::mean_square() const {
+    double square = 0.0, capacity = 0.0;
+    for (std::size_t k = 0; k < elements_.capacity.size(); ++k) {
+        const double x = solved_.reflected[k];
+        square += elements_.capacity[k] * x * x;
+        capacity += elements_.capacity[k];
+    }
+    return capacity > 0.0 ? square / capacity : 0.0;
 }
 
 double CoarseSolution::split_emission(std::size_t element, std::size_t band) const {

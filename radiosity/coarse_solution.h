@@ -2,6 +2,7 @@
 // is asked for), solved again whenever direct light is known better.
 #pragma once
 
+#include "radiosity/exchange_moved.h"
 #include "radiosity/options.h"
 #include "radiosity/settled_emission.h"
 #include "radiosity/solution.h"
@@ -11,20 +12,30 @@ namespace tyndall::radiosity {
 
 struct NamedSolver;
 
+// Rows of the same elements before bodies have moved, of each distinct extinction.
+struct KeptRows {
+    Discretization discretization;
+    const std::vector<ExchangeAreas>& areas;
+};
+
 class CoarseSolution {
   public:
     // The elements are the forest's leaves now; rows are made here, once a distinct extinction,
     // of all by one walk where the method can.
     CoarseSolution(const Enclosure& enclosure, const Forest& forest, const SolveOptions& options,
                    const ProgressCallback& progress);
-    // With elements of the caller's, clusters for instance.
+    // With elements of the caller's, clusters for instance. `kept`: rows that what has moved since
+    // is corrected in (exchange_moved.h), in place of rows made anew.
     CoarseSolution(const Enclosure& enclosure, const Forest& forest, Elements elements,
-                   const SolveOptions& options, const ProgressCallback& progress);
+                   const SolveOptions& options, const ProgressCallback& progress,
+                   const KeptRows* kept = nullptr);
 
     const Elements& elements() const { return elements_; }
     const Forest& forest() const { return forest_; }
     // The rows; none where shots are on the fly.
     const ExchangeAreas& areas(std::size_t band) const { return areas_[matrix_[band]]; }
+    // Those of each distinct extinction.
+    const std::vector<ExchangeAreas>& all_areas() const { return areas_; }
     // S_i,out [m^2].
     double to_outside(std::size_t element, std::size_t band) const;
     // max_i |Σ_j S_ij − c_i| / c_i of the rows that are kept, or have been made so far [-].
@@ -68,6 +79,8 @@ class CoarseSolution {
     double reflected(std::size_t element, std::size_t band) const {
         return solved_.reflected[element * elements_.bands + band];
     }
+    // Σ c r² over Σ c, of all bands [(W/m^2/sr)^2].
+    double mean_square() const;
     // e^A: emission counted in closed form, of sides that shine; 0 else.
     double split_emission(std::size_t element, std::size_t band) const;
 
@@ -81,7 +94,7 @@ class CoarseSolution {
 
     bool on_the_fly() const { return options_.shots == Shots::on_the_fly; }
     ExchangeOptions exchange_options(std::size_t band) const;
-    void make_areas(std::span<const std::size_t> bands);
+    void make_areas(std::span<const std::size_t> bands, const KeptRows* kept);
     void make_rows(std::size_t band, std::span<const ElementId> rows, const RowSink& sink) const;
     void find_outside(std::size_t band);
     SolverResult solve_band(std::size_t band, std::span<const double> source,

@@ -10,6 +10,7 @@
 #include "mesh/visible_polygon.h"
 #include "radiosity/closed_forms.h"
 #include "radiosity/element_faces.h"
+#include "radiosity/light_cone.h"
 #include "radiosity/light_sources.h"
 #include "radiosity/mean_transmittance.h"
 #include "radiosity/narrow_parts.h"
@@ -119,6 +120,7 @@ struct DirectLight::Data {
     std::vector<Sun> beams;  // without a diameter; directions are unit
     std::vector<PointLight> points;
     std::vector<SpotLight> spots;
+    std::vector<LightCone> cones;
     std::vector<LightPower> powers;
     mesh::Occluders inner;  // what can come between two points that light reaches
     mesh::Occluders all;    // and between such a point and infinity
@@ -135,6 +137,7 @@ struct DirectLight::Data {
           tolerance(on_plane * diagonal(enclosure.mesh)) {
         if (options.emitters) add_emitters();
         for (const Light& light : enclosure.lights) add_light(light);
+        find_cones();
         if (areas.empty() && beams.empty() && points.empty() && spots.empty()) return;
         const auto polygons =
             occluding_polygons(enclosure, merge_tolerance * diagonal(enclosure.mesh));
@@ -147,6 +150,7 @@ struct DirectLight::Data {
     void add_emitter(const SurfaceSide& side,
                      const std::vector<std::array<mesh::VertexId, 3>>& triangles);
     void add_light(const Light& light);
+    void find_cones();
 
     void gather(const Receiver& receiver, std::span<double> incident) const;
     void visit(const Receiver& receiver, double widest, const ArrivingPart& visit) const;
@@ -233,6 +237,30 @@ void DirectLight::Data::add_light(const Light& light) {
         if (shines(spot->intensity)) spots.push_back(*spot);
     }
     powers.push_back({light.name, std::move(power)});
+}
+
+void DirectLight::Data::find_cones() {
+    for (const AreaLight& area : areas) {
+        LightCone cone;
+        for (const Point& corner : area.corners)
+            cone.centre += corner / static_cast<double>(area.corners.size());
+        if (area.reach == mesh::Reach::infinite) {
+            cone.infinite = true;
+            cone.towards = glm::normalize(cone.centre);
+            for (const Point& corner : area.corners)
+                cone.half_angle =
+                    std::max(cone.half_angle,
+                             std::acos(std::clamp(glm::dot(glm::normalize(corner), cone.towards),
+                                                  -1.0, 1.0)));
+        } else {
+            for (const Point& corner : area.corners)
+                cone.radius = std::max(cone.radius, glm::distance(corner, cone.centre));
+        }
+        cones.push_back(cone);
+    }
+    for (const Sun& sun : beams) cones.push_back({true, Point(0), 0.0, -sun.direction, 0.0});
+    for (const PointLight& light : points) cones.push_back({false, light.position});
+    for (const SpotLight& light : spots) cones.push_back({false, light.position});
 }
 
 // Closed form of (1) for τ = 1 and unit radiance [-].
@@ -380,7 +408,9 @@ bool DirectLight::empty() const {
 }
 
 void DirectLight::at_zone(Point x, TetId tet, std::span<double> incident) const {
-    data_->gather({x, tet}, incident);
+    const Direction none(0.0);
+    if (!is_known(x, none, incident)) data_->gather({x, tet}, incident);
+    if (keep_) keep_->keep(x, none, incident);
 }
 
 void DirectLight::visit_zone(Point x, TetId tet, double widest, const ArrivingPart& visit) const {
@@ -388,7 +418,25 @@ void DirectLight::visit_zone(Point x, TetId tet, double widest, const ArrivingPa
 }
 
 void DirectLight::at_patch(Point x, Direction n, TetId tet, std::span<double> incident) const {
-    data_->gather({x, tet, n, true}, incident);
+    if (!is_known(x, n, incident)) data_->gather({x, tet, n, true}, incident);
+    if (keep_) keep_->keep(x, n, incident);
+}
+
+void DirectLight::take_from(const PlaceMemory& known, const std::vector<mesh::Body>& moved) {
+    known_ = &known;
+    moved_ = moved;
+    const auto& own = data_->enclosure.mesh.bodies;
+    moved_.insert(moved_.end(), own.begin(), own.end());
+}
+
+bool DirectLight::is_known(Point x, Direction normal, std::span<double> incident) const {
+    const double* known = known_ ? known_->find(x, normal) : nullptr;
+    if (!known) return false;
+    for (const LightCone& cone : data_->cones)
+        for (const mesh::Body& body : moved_)
+            if (cone.passes(x, body)) return false;
+    std::copy_n(known, incident.size(), incident.begin());
+    return true;
 }
 
 const std::vector<LightPower>& DirectLight::powers() const {

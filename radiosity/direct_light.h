@@ -27,6 +27,7 @@
 #include <vector>
 
 #include "radiosity/enclosure.h"
+#include "radiosity/place_memory.h"
 
 namespace tyndall::radiosity {
 
@@ -48,8 +49,7 @@ struct LightPower {
 // over it, one value a band [W/m^2].
 using ArrivingPart = std::function<void(Direction towards, std::span<const double> irradiance)>;
 
-// Immutable once built; every call is thread-safe and depends on its arguments alone.
-// Keeps a reference to the enclosure.
+// Every call is thread-safe and depends on its arguments alone. Keeps a reference to the enclosure.
 class DirectLight {
   public:
     explicit DirectLight(const Enclosure& enclosure, const DirectLightOptions& options = {});
@@ -73,12 +73,24 @@ class DirectLight {
     // the base tet on that side.
     void at_patch(Point x, Direction n, TetId tet, std::span<double> incident) const;
 
+    // From now on every value is kept in `memory` as well; null: none is.
+    void keep_in(PlaceMemory* memory) { keep_ = memory; }
+    // From now on values of `known` are taken where no body's sphere, of those in `moved` or of the
+    // enclosure's own, comes between the place and a light. `known` is of the same lights, past the
+    // same occluders but for the bodies of `moved`. `known` and `moved` must outlive this.
+    void take_from(const PlaceMemory& known, const std::vector<mesh::Body>& moved);
+
     // Emitting surface sides first, then the scene's lights in order.
     const std::vector<LightPower>& powers() const;
 
   private:
     struct Data;
+    bool is_known(Point x, Direction normal, std::span<double> incident) const;
+
     std::unique_ptr<Data> data_;
+    PlaceMemory* keep_ = nullptr;
+    const PlaceMemory* known_ = nullptr;
+    std::vector<mesh::Body> moved_;
 };
 
 }  // namespace tyndall::radiosity

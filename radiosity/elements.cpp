@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "mesh/input_error.h"
+#include "radiosity/open_places.h"
 
 namespace tyndall::radiosity {
 
@@ -137,6 +138,12 @@ Elements without_elements(const Enclosure& enclosure, const Forest& forest) {
     return e;
 }
 
+// The share of an element that counts [-].
+template <class Node>
+double open(const Enclosure& enclosure, const Forest& forest, Node node) {
+    return std::max(least_open, open_share(enclosure, forest, node, element_share_points));
+}
+
 // The leaves below a root, as they lie in its tree: neighbours there are neighbours in space.
 template <class Node, class Visit>
 void each_leaf(const Forest& forest, Node root, Visit&& visit) {
@@ -164,7 +171,8 @@ Elements elements_of_leaves(const Enclosure& enclosure, const Forest& forest) {
         if (side == none) continue;
         each_leaf(forest, PatchId(p), [&](PatchId patch) {
             e.of_patch[patch.value] = static_cast<std::uint32_t>(e.size());
-            append(e, enclosure.sides[side], patch, forest.area(patch));
+            append(e, enclosure.sides[side], patch,
+                   forest.area(patch) * open(enclosure, forest, patch));
         });
     }
     for (std::size_t t = 0; t < tags.tets.size(); ++t) {
@@ -173,7 +181,8 @@ Elements elements_of_leaves(const Enclosure& enclosure, const Forest& forest) {
         each_leaf(forest, ZoneId(t), [&](ZoneId zone) {
             e.of_zone[zone.value] = static_cast<std::uint32_t>(e.size());
             append(e, enclosure.media[medium], zone,
-                   mean_extinction(enclosure, forest, {&zone.value, 1}), forest.volume(zone));
+                   mean_extinction(enclosure, forest, {&zone.value, 1}),
+                   forest.volume(zone) * open(enclosure, forest, zone));
         });
     }
     return e;

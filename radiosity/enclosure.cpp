@@ -198,25 +198,7 @@ class Binder {
         auto& index = indices_[2 * surface + (side == Side::back)];
         if (index != none) return index;
         index = static_cast<std::uint32_t>(e_.sides.size());
-        const Surface& s = scene_.surfaces[surface];
-        const auto [material, emits] = material_of_side(scene_, surface, side);
-        SurfaceSide result;
-        result.name = s.name + (side == Side::front ? "+" : "-");
-        result.surface = surface;
-        result.side = side;
-        result.reflectance = material->reflectance;
-        result.specular = material->specular;
-        result.roughness = material->roughness;
-        for (std::size_t b = 0; b < result.specular.size(); ++b)
-            result.reflectance[b] = std::min(1.0, result.reflectance[b] + result.specular[b]);
-        for (const double rho : result.reflectance) result.emissivity.push_back(1.0 - rho);
-        if (emits && !material->flux.empty()) {
-            if (e_.settles())
-                result.settled_flux = material->flux[0];
-            else
-                result.reflectance.assign(e_.bands, 1.0);
-        }
-        e_.sides.push_back(std::move(result));
+        e_.sides.push_back(side_of_surface(scene_, e_, surface, side));
         return index;
     }
 

@@ -63,6 +63,28 @@ SideMaterial material_of_side(const Scene& scene, std::size_t surface, Side side
     return {&material, side == Side::front || material.emits == EmittingSides::both};
 }
 
+SurfaceSide side_of_surface(const Scene& scene, const Enclosure& enclosure, std::size_t surface,
+                            Side side) {
+    const auto [material, emits] = material_of_side(scene, surface, side);
+    SurfaceSide result;
+    result.name = scene.surfaces[surface].name + (side == Side::front ? "+" : "-");
+    result.surface = surface;
+    result.side = side;
+    result.reflectance = material->reflectance;
+    result.specular = material->specular;
+    result.roughness = material->roughness;
+    for (std::size_t b = 0; b < result.specular.size(); ++b)
+        result.reflectance[b] = std::min(1.0, result.reflectance[b] + result.specular[b]);
+    for (const double rho : result.reflectance) result.emissivity.push_back(1.0 - rho);
+    if (emits && !material->flux.empty()) {
+        if (enclosure.settles())
+            result.settled_flux = material->flux[0];
+        else
+            result.reflectance.assign(enclosure.bands, 1.0);
+    }
+    return result;
+}
+
 void bind_emissions(const Scene& scene, Enclosure& e) {
     for (SurfaceSide& side : e.sides) {
         const auto [material, emits] = material_of_side(scene, side.surface, side.side);

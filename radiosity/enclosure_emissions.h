@@ -13,6 +13,10 @@ struct SideMaterial {
 };
 SideMaterial material_of_side(const Scene& scene, std::size_t surface, Side side);
 
+// A side of a surface as a SurfaceSide: its name and optics, but for its emission and its area.
+SurfaceSide side_of_surface(const Scene& scene, const Enclosure& enclosure, std::size_t surface,
+                            Side side);
+
 // Purpose: the emissions of all sides and media, lights and environment are those of the scene. The
 //   scene may differ from the one that the enclosure was made of in these alone
 //   (compare_scenes.h). A given flux is an emission where it is that of each band (not settles()).

@@ -168,11 +168,7 @@ void gather(const GatherScene& scene, const LitPatches* lit, const GatherPoint& 
     radiance.resize(bands);
     halves.assign(2 * bands, 0.0);
     for (std::size_t k = 0; k < points.size(); ++k) {
-        const auto u = points(k, seed);
-        mesh::Ray ray;
-        ray.origin = point.x;
-        ray.direction = point.on_surface() ? cosine_direction(point.normal, u[0], u[1])
-                                           : uniform_direction(u[0], u[1]);
+        const mesh::Ray ray{point.x, gather_direction(point, points(k, seed))};
         radiance_along(scene, ray, point.start, radiance);
         double* half = halves.data() + (2 * k < points.size() ? 0 : bands);
         for (std::size_t b = 0; b < bands; ++b) half[b] += radiance[b];

@@ -72,6 +72,13 @@ class GatherScene {
 void radiance_along(const GatherScene& scene, const mesh::Ray& ray, mesh::WalkStart start,
                     std::span<double> radiance);
 
+// The direction of one ray of a gather, given its numbers.
+inline Direction gather_direction(const GatherPoint& point,
+                                  const std::array<double, point_set_dimensions>& u) {
+    return point.on_surface() ? cosine_direction(point.normal, u[0], u[1])
+                              : uniform_direction(u[0], u[1]);
+}
+
 // H at a point from the points of the set, scrambled by `seed`: one value a band. What `lit` holds
 // must not be in the scene's sources.
 // Cost: points.size() walks. Error: see `half_difference`.

@@ -4,19 +4,21 @@
 
 #include <algorithm>
 
+#include "radiosity/open_places.h"
+
 namespace tyndall::radiosity {
 namespace {
 
 // Points of degree 2 on an element, each with its part of the area or volume.
 std::vector<std::pair<Receiver, double>> quadrature(const Enclosure& enclosure,
                                                     const Forest& forest, PatchId patch) {
-    const auto side = forest.base_facet_side(patch);
     std::vector<std::pair<Receiver, double>> points;
-    for (const VertexId corner : forest[patch].corners)
-        points.push_back(
-            {{0.5 * (forest.point(corner) + forest.centroid(patch)),
-              enclosure.mesh.facets[side / 2].tets[side % 2], normal_of(forest, patch), true},
-             forest.area(patch) / 3.0});
+    for (const VertexId corner : forest[patch].corners) {
+        const Point x = 0.5 * (forest.point(corner) + forest.centroid(patch));
+        points.push_back({{x, mesh::tet_before(enclosure.mesh, forest.base_facet_side(patch), x),
+                           normal_of(forest, patch), true},
+                          forest.area(patch) / 3.0});
+    }
     return points;
 }
 
@@ -35,7 +37,8 @@ std::vector<std::pair<Receiver, double>> quadrature(const Enclosure& enclosure,
             for (const ExtinctionBand& band : optics.varying) density += band.at(x);
             size *= density;
         }
-        points.push_back({{x, forest.base_tet(zone)}, size});
+        const OpenPlace place = open_place(enclosure, x, forest.base_tet(zone));
+        points.push_back({{place.x, place.tet}, size});
     }
     return points;
 }

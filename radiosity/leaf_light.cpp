@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "radiosity/open_places.h"
+
 namespace tyndall::radiosity {
 
 template <class Node>
@@ -20,14 +22,22 @@ Affine LeafLight::direct(Node node, std::size_t band) {
 template Affine LeafLight::direct(ZoneId, std::size_t);
 template Affine LeafLight::direct(PatchId, std::size_t);
 
+WeighedMean LeafLight::weighed_direct(PatchId leaf, std::size_t band) {
+    const Forest& forest = mesh_.forest();
+    return {open_share(enclosure_, forest, leaf, leaf_share_points) * forest.area(leaf),
+            direct_.mean(leaf, band)};
+}
+
 WeighedMean LeafLight::weighed(PatchId leaf, std::size_t, const Affine& function) const {
     const Forest& forest = mesh_.forest();
-    return {forest.area(leaf), function.at(forest.centroid(leaf))};
+    return {open_share(enclosure_, forest, leaf, leaf_share_points) * forest.area(leaf),
+            function.at(forest.centroid(leaf))};
 }
 
 WeighedMean LeafLight::weighed(ZoneId leaf, std::size_t band, const Affine& function) const {
     const Forest& forest = mesh_.forest();
-    const double volume = forest.volume(leaf);
+    const double volume =
+        open_share(enclosure_, forest, leaf, leaf_share_points) * forest.volume(leaf);
     const MediumOptics& optics = enclosure_.media[medium_of(enclosure_, forest, leaf)];
     if (optics.varying.empty()) return {volume, function.at(forest.centroid(leaf))};
     const auto [mean, centre] = extinction_in(enclosure_, forest, leaf, band);
@@ -37,8 +47,30 @@ WeighedMean LeafLight::weighed(ZoneId leaf, std::size_t band, const Affine& func
 WeighedMean LeafLight::weighed_direct(ZoneId leaf, std::size_t band) {
     const Forest& forest = mesh_.forest();
     if (enclosure_.media[medium_of(enclosure_, forest, leaf)].varying.empty())
-        return {forest.volume(leaf), direct_.mean(leaf, band)};
+        return {open_share(enclosure_, forest, leaf, leaf_share_points) * forest.volume(leaf),
+                direct_.mean(leaf, band)};
     return weighed(leaf, band, direct_with_mean(leaf, band));
+}
+
+std::vector<double> LeafLight::means_of_direct(const Elements& e) {
+    const std::size_t bands = enclosure_.bands;
+    std::vector<double> result(e.size() * bands, 0.0);
+    std::vector<double> measure(e.size() * bands, 0.0);
+    const auto add = [&](auto node, std::uint32_t element) {
+        for (std::size_t b = 0; b < bands; ++b) {
+            const WeighedMean one = weighed_direct(node, b);
+            measure[element * bands + b] += one.measure;
+            result[element * bands + b] += one.measure * one.mean;
+        }
+    };
+    const Forest& forest = mesh_.forest();
+    for (const ZoneId z : mesh_.zones())
+        if (forest.is_leaf(z)) add(z, element_above(z, e.of_zone));
+    for (const PatchId p : mesh_.patches())
+        if (forest.is_leaf(p)) add(p, element_above(p, e.of_patch));
+    for (std::size_t k = 0; k < measure.size(); ++k)
+        if (measure[k] > 0.0) result[k] /= measure[k];
+    return result;
 }
 
 LitPatches LeafLight::lit_patches() {

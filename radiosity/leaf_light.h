@@ -31,13 +31,15 @@ class LeafLight {
     }
 
     // The mean of H^A over a leaf as an element's capacity weighs it: with κ where that varies.
-    WeighedMean weighed_direct(PatchId leaf, std::size_t band) {
-        return {mesh_.forest().area(leaf), direct_.mean(leaf, band)};
-    }
+    WeighedMean weighed_direct(PatchId leaf, std::size_t band);
     WeighedMean weighed_direct(ZoneId leaf, std::size_t band);
     // The same of any function on leaves, of which `band` is to be weighed.
     WeighedMean weighed(PatchId leaf, std::size_t band, const Affine& function) const;
     WeighedMean weighed(ZoneId leaf, std::size_t band, const Affine& function) const;
+
+    // The means of H^A of the leaves in each element above them ([element * bands + band])
+    // [W/m^2/sr].
+    std::vector<double> means_of_direct(const Elements& elements);
 
     // What patches reflect of direct light.
     LitPatches lit_patches();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "mesh/body.h"
 #include "mesh/visible_polygon.h"
 #include "radiosity/closed_forms.h"
 #include "radiosity/point_set.h"
@@ -47,9 +48,11 @@ LitPatches::LitPatches(const Enclosure& enclosure, const Forest& forest, const F
         if (node == none) continue;
         roots_.push_back(node);
         normals_.push_back(normal_of(forest, patch));
-        const auto start =
-            mesh::start_on(enclosure.mesh, FacetId(root / 2), root % 2 ? Side::back : Side::front);
-        fronts_.push_back({start, {enclosure.mesh, start.tet}});
+        const auto start = mesh::start_before(enclosure.mesh, static_cast<std::uint32_t>(root),
+                                              forest.centroid(patch));
+        const bool body = mesh::on_body(enclosure.mesh, FacetId(root / 2));
+        fronts_.push_back(
+            {start, {enclosure.mesh, start.tet}, body ? static_cast<std::uint32_t>(root) : none});
         for (std::size_t b = 0; b < bands_; ++b)
             power += nodes_[node].area * radiance_[node * bands_ + b].at(nodes_[node].centroid) /
                      double(bands_);
@@ -197,8 +200,15 @@ class LitPatches::Visit {
                    }).arrival == mesh::Arrival::struck;
         };
         return meets_wall(receiver_.x, path, here_) ||
-               meets_wall(receiver_.x + path, -path, *front_) ||
+               meets_wall(receiver_.x + path, -path, front_at(receiver_.x + path)) ||
                lit_.occlusion_.blocked(receiver_.x, path);
+    }
+
+    Front front_at(Point x) const {
+        const auto& mesh = lit_.enclosure_.mesh;
+        if (front_->facet_side == none) return *front_;
+        const auto start = mesh::start_before(mesh, front_->facet_side, x);
+        return {start, {mesh, start.tet}};
     }
 
     double weight(const Triangle& t) {

@@ -57,6 +57,7 @@ class LitPatches {
     struct Front {
         mesh::WalkStart start;
         mesh::TetPlanes planes;
+        std::uint32_t facet_side = none;  // of a body, which stands in many tets; else none
     };
     std::vector<Front> fronts_;  // of each root
     double typical_ = 0.0;       // Σ r̄ A over the area of all surfaces [W/m^2/sr]

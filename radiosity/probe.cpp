@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "mesh/input_error.h"
+#include "radiosity/open_places.h"
 #include "radiosity/temperatures.h"
 
 namespace tyndall::radiosity {
@@ -72,7 +73,8 @@ Probe::Place Probe::place(Point x, Direction normal) const {
     const TetId first = mesh::locate(e.mesh, stepped);
     std::vector<Place> places;
     const auto consider = [&](Point p, TetId tet) {
-        if (tet.valid() && !e.solid(tet)) places.push_back({off_faces(p, tet), tet});
+        if (tet.valid() && !e.solid(tet) && !covered(e, p))
+            places.push_back({off_faces(p, tet), tet});
     };
     consider(stepped, first);
     const bool free = normal == Direction(0.0);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "radiosity/open_places.h"
 #include "radiosity/refine.h"
 
 namespace tyndall::radiosity {
@@ -118,14 +119,14 @@ void DirectRefiner::update() {
     patch_centroid_.resize(forest.patch_count() * bands_);
     tbb::parallel_for(std::size_t(0), zones.size(), [&](std::size_t k) {
         const ZoneId z = zones[k];
-        light_.at_zone(forest.centroid(z), forest.base_tet(z),
-                       {zone_centroid_.data() + z.value * bands_, bands_});
+        const OpenPlace place = open_place(enclosure_, forest.centroid(z), forest.base_tet(z));
+        light_.at_zone(place.x, place.tet, {zone_centroid_.data() + z.value * bands_, bands_});
     });
     tbb::parallel_for(std::size_t(0), patches.size(), [&](std::size_t k) {
         const PatchId p = patches[k];
-        const auto side = forest.base_facet_side(p);
-        light_.at_patch(forest.centroid(p), normal_of(forest, p),
-                        enclosure_.mesh.facets[side / 2].tets[side % 2],
+        const Point centroid = forest.centroid(p);
+        light_.at_patch(centroid, normal_of(forest, p),
+                        mesh::tet_before(enclosure_.mesh, forest.base_facet_side(p), centroid),
                         {patch_centroid_.data() + p.value * bands_, bands_});
     });
     for (const ZoneId z : zones) measure(z, zone_error_, zone_edge_, zone_centroid_);
@@ -160,8 +161,9 @@ double DirectRefiner::collect(const Importance& importance, const RefineLimits& 
     for (const ZoneId z : mesh_.zones())
         if (forest.is_leaf(z)) {
             const auto& optics = enclosure_.media[medium_of(enclosure_, forest, z)];
+            const double open = open_share(enclosure_, forest, z, 0);
             add(z, zone_error_[z.value], cuts_ ? cuts_->error(z) : 0.0,
-                mean_over_bands(optics.albedo), importance.of(z));
+                mean_over_bands(optics.albedo), open * importance.of(z));
         }
     for (const PatchId p : mesh_.patches())
         if (forest.is_leaf(p)) {

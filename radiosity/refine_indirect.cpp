@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "radiosity/open_places.h"
 #include "radiosity/quadratic.h"
 #include "radiosity/refine.h"
 
@@ -133,15 +134,18 @@ RefineResult IndirectRefiner::refine(std::vector<Node> frontier, IndirectSources
         result.stopped =
             progress && !progress({"indirect light", 1.0 - double(frontier.size()) / pieces,
                                    mesh_.leaf_count(), 0.0});
-        result.limited =
-            mesh_.leaf_count() >= limits.max_elements || mesh_.memory() > limits.max_memory;
+        result.limited = limits.grow && (mesh_.leaf_count() >= limits.max_elements ||
+                                         mesh_.memory() > limits.max_memory);
         const bool descend = !result.stopped && !result.limited;
         const double threshold = goal / pieces;
         next.clear();
         for (const Node node : frontier) {
             const auto [error, edge] = measure(node);
-            const double x = scatter(node) * error, share = importance.of(node) * x * x;
-            if (descend && share > threshold && forest[node].longest_edge > limits.smallest_edge) {
+            const double x = scatter(node) * error;
+            const double share =
+                open_share(enclosure_, forest, node, 0) * importance.of(node) * x * x;
+            if (descend && share > threshold && forest[node].longest_edge > limits.smallest_edge &&
+                (limits.grow || !forest.is_leaf(node))) {
                 if (forest.is_leaf(node)) bisect(node, edge);
                 const Node first = forest[node].first_child;
                 next.insert(next.end(), {first, Node(first.value + 1ull)});
@@ -151,7 +155,8 @@ RefineResult IndirectRefiner::refine(std::vector<Node> frontier, IndirectSources
             settled.flags[node.value] = true;
             settled.errors[node.value] = static_cast<float>(error);
             result.squared_error += share;
-            if (descend && share > shown_share * remaining<Node> * remaining<Node> * threshold)
+            if (descend && limits.grow &&
+                share > shown_share * remaining<Node> * remaining<Node> * threshold)
                 shown.push_back(node);
         }
         extend(forest, sources.fields);

@@ -104,14 +104,15 @@ class RowWalk {
             });
         flush();
         if (end.arrival == mesh::Arrival::ended) return end.arrival;
-        const bool struck = end.arrival == mesh::Arrival::struck;
+        std::uint32_t column = s_.outside_;
+        if (end.arrival == mesh::Arrival::struck)
+            column = arrival(2 * end.facet.value + (end.side == Side::back),
+                             from + end.distance * ray.direction, static_cast<float>(end.distance));
+        // The dark side of a body, from within rounding of its rim.
+        if (column == none) column = s_.outside_;
         Values distances;
         distances.fill(end.distance);
-        deposit_(
-            struck ? arrival(2 * end.facet.value + (end.side == Side::back),
-                             from + end.distance * ray.direction, static_cast<float>(end.distance))
-                   : s_.outside_,
-            transmittance_, distances);
+        deposit_(column, transmittance_, distances);
         return end.arrival;
     }
 

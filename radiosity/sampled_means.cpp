@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "radiosity/open_places.h"
 #include "radiosity/point_set.h"
 
 namespace tyndall::radiosity {
@@ -28,7 +29,8 @@ void SampledMeans::evaluate(ZoneId zone, double* mean) const {
         const auto w = uniform_in_tet(u[0], u[1], u[2]);
         Point x(0.0);
         for (int c = 0; c < 4; ++c) x += w[c] * forest_.point(corners[c]);
-        light_.at_zone(x, tet, incident);
+        const OpenPlace place = open_place(enclosure_, x, tet);
+        light_.at_zone(place.x, place.tet, incident);
         for (std::size_t b = 0; b < incident.size(); ++b)
             mean[b] += incident[b] / static_cast<double>(points().size());
     }
@@ -36,8 +38,8 @@ void SampledMeans::evaluate(ZoneId zone, double* mean) const {
 
 void SampledMeans::evaluate(PatchId patch, double* mean) const {
     const auto& corners = forest_[patch].corners;
-    const auto side = forest_.base_facet_side(patch);
-    const TetId tet = enclosure_.mesh.facets[side / 2].tets[side % 2];
+    const TetId tet =
+        mesh::tet_before(enclosure_.mesh, forest_.base_facet_side(patch), forest_.centroid(patch));
     const Direction normal = normal_of(forest_, patch);
     std::vector<double> incident(enclosure_.bands);
     for (std::size_t k = 0; k < points().size(); ++k) {

@@ -4,6 +4,9 @@
 
 #include <cmath>
 
+#include "radiosity/kept_light.h"
+#include "radiosity/open_places.h"
+
 namespace tyndall::radiosity {
 namespace {
 
@@ -39,7 +42,7 @@ SampleId SampleSet::in_zone(VertexId vertex, TetId tet) {
         point.start = {fan};
         if (dimension(carrier) < 3)
             point.x += step_inside * (forest_.centroid(mesh::root_zone(fan)) - point.x);
-        points_.push_back(point);
+        points_.push_back(opened(point));
     }
     return entry->second;
 }
@@ -52,15 +55,22 @@ SampleId SampleSet::in_zone(VertexId vertex, TetId tet, std::uint32_t sides, Poi
         GatherPoint point;
         point.x = x;
         point.start = {tet};
-        points_.push_back(point);
+        points_.push_back(opened(point));
     }
     return entry->second;
 }
 
-GatherPoint SampleSet::on_side(PatchId root) const {
-    const FacetId facet(root.value / 2);
+GatherPoint SampleSet::opened(GatherPoint point) const {
+    const OpenPlace place = open_place(enclosure_, point.x, point.start.tet);
+    point.x = place.x;
+    point.start.tet = place.tet;
+    return point;
+}
+
+GatherPoint SampleSet::on_side(PatchId root, Point x) const {
     GatherPoint point;
-    point.start = mesh::start_on(enclosure_.mesh, facet, root.value % 2 ? Side::back : Side::front);
+    point.x = x;
+    point.start = mesh::start_before(enclosure_.mesh, root.value, x);
     point.normal = normal_of(forest_, root);
     return point;
 }
@@ -71,10 +81,9 @@ SampleId SampleSet::on_patch(VertexId vertex, std::uint32_t facet_side) {
     const auto [entry, made] =
         ids_.try_emplace({vertex, fan.value | 0x80000000u, 0}, SampleId(points_.size()));
     if (made) {
-        GatherPoint point = on_side(fan);
-        point.x = forest_.point(vertex);
-        if (dimension(carrier) < 2) point.x += step_inside * (forest_.centroid(fan) - point.x);
-        points_.push_back(point);
+        Point x = forest_.point(vertex);
+        if (dimension(carrier) < 2) x += step_inside * (forest_.centroid(fan) - x);
+        points_.push_back(on_side(fan, x));
     }
     return entry->second;
 }
@@ -84,10 +93,7 @@ SampleId SampleSet::on_patch(VertexId vertex, std::uint32_t facet_side, std::uin
     const std::uint32_t fan = fans_.of_facet_side(forest_.carrier(vertex), facet_side);
     const auto [entry, made] =
         ids_.try_emplace({vertex, fan | 0x80000000u, sides}, SampleId(points_.size()));
-    if (made) {
-        points_.push_back(on_side(PatchId(facet_side)));
-        points_.back().x = x;
-    }
+    if (made) points_.push_back(on_side(PatchId(facet_side), x));
     return entry->second;
 }
 
@@ -110,26 +116,39 @@ std::size_t SampleSet::gather_at(const std::vector<SampleId>& ids, const GatherS
     indirect_.resize(points_.size() * bands_);
     gathered_.resize(points_.size());
     std::vector<SampleId> missing;
-    std::size_t rays = 0;
+    std::atomic<std::size_t> rays = 0;
     for (const SampleId id : ids) {
         if (gathered_[id.value]) continue;
         gathered_[id.value] = true;
         missing.push_back(id);
-        rays += (points_[id.value].on_surface() ? on_surfaces : in_zones).size();
     }
     tbb::parallel_for(std::size_t(0), missing.size(), [&](std::size_t k) {
         const std::size_t i = missing[k].value;
-        const GatherPoint& point = points_[i];
-        const std::span<Gathered> out(indirect_.data() + i * bands_, bands_);
-        // A surface is seen as it is: on one plane all share their directions, so that noise is
-        // smooth. Zones are seen many at a time: theirs are independent, so that noise averages
-        // out.
-        if (point.on_surface())
-            gather(scene, lit, point, on_surfaces, plane_seed(seed, point.normal), out);
-        else
-            gather(scene, lit, point, in_zones, hash_seed(seed, i), out);
+        rays += gather_one(i, scene, lit, points_[i].on_surface() ? on_surfaces : in_zones, seed);
     });
     return rays;
+}
+
+std::size_t SampleSet::gather_one(std::size_t sample, const GatherScene& scene,
+                                  const LitPatches* lit, const PointSet& points,
+                                  std::uint64_t seed) {
+    const GatherPoint& point = points_[sample];
+    const std::span<Gathered> out(indirect_.data() + sample * bands_, bands_);
+    // A surface is seen as it is: on one plane all share their directions, so that noise is smooth.
+    // Zones are seen many at a time: theirs are independent, so that noise averages out.
+    const bool on_surface = point.on_surface();
+    const std::uint64_t stream = on_surface ? plane_seed(seed, point.normal) : seed;
+    std::size_t walked = 0;
+    if (change_ && change_->gather(scene, point, points, stream, out, walked)) return walked;
+    gather(scene, lit, point, points, on_surface ? stream : hash_seed(seed, sample), out);
+    if (keep_) {
+        std::vector<double> values;
+        for (const Gathered& one : out)
+            values.insert(values.end(), {one.mean, one.half_difference});
+        values.push_back(static_cast<double>(sample));
+        keep_->keep(point.x, point.normal, values);
+    }
+    return points.size();
 }
 
 }  // namespace tyndall::radiosity

@@ -9,6 +9,8 @@
 
 namespace tyndall::radiosity {
 
+class GatherChange;
+
 using SampleId = mesh::Id<struct SampleTag>;
 
 // A sample belongs to a vertex and a fan of tets (or facet sides) around it; corners of that fan
@@ -37,6 +39,11 @@ class SampleSet {
                           const LitPatches* lit, const PointSet& on_surfaces,
                           const PointSet& in_zones, std::uint64_t seed);
 
+    // From now on what rays find at a sample is kept as well, for bodies that move (kept_light.h).
+    void keep_in(PlaceMemory* gathers) { keep_ = gathers; }
+    // From now on gathers begin with what was kept before bodies have moved; null: no more.
+    void take_from(const GatherChange* change) { change_ = change; }
+
     // What has been gathered is to be gathered anew, from other sources.
     void forget_indirect() { gathered_.assign(gathered_.size(), false); }
 
@@ -64,7 +71,11 @@ class SampleSet {
         }
     };
 
-    GatherPoint on_side(PatchId root) const;
+    // Returns the rays walked.
+    std::size_t gather_one(std::size_t sample, const GatherScene& scene, const LitPatches* lit,
+                           const PointSet& points, std::uint64_t seed);
+    GatherPoint opened(GatherPoint point) const;
+    GatherPoint on_side(PatchId root, Point x) const;
 
     const Enclosure& enclosure_;
     const Forest& forest_;
@@ -75,6 +86,8 @@ class SampleSet {
     std::vector<double> direct_;      // [sample * bands + band]
     std::vector<Gathered> indirect_;  // [sample * bands + band]
     std::vector<bool> gathered_;
+    PlaceMemory* keep_ = nullptr;
+    const GatherChange* change_ = nullptr;
     std::size_t lit_ = 0;  // samples that have their direct light
 };
 

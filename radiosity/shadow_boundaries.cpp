@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <map>
 
+#include "mesh/walk.h"
 #include "radiosity/light_sources.h"
 
 namespace tyndall::radiosity {
@@ -101,6 +102,26 @@ ShadowBoundaries::ShadowBoundaries(const Enclosure& enclosure, bool emitters)
     spread(mesh);
 }
 
+namespace {
+
+// A body's edge is no tet's: the tets that it passes through.
+template <class Try>
+void try_tets_along(const mesh::BaseMesh& mesh, mesh::VertexId a, mesh::VertexId b,
+                    const Try& try_tet) {
+    const Point from = mesh.points[a.value];
+    const Direction way = mesh.points[b.value] - from;
+    const TetId start = mesh::locate(mesh, from);
+    if (!start.valid()) return;
+    try_tet(start.value);
+    mesh::walk<mesh::Passes::everything>(mesh, {from, glm::normalize(way), glm::length(way)},
+                                         {start}, [&](TetId tet, double, double) {
+                                             try_tet(tet.value);
+                                             return true;
+                                         });
+}
+
+}  // namespace
+
 // From the tets around a sheet's edge on from tet to tet, up to what is opaque.
 void ShadowBoundaries::spread(const mesh::BaseMesh& mesh) {
     std::vector<std::vector<std::uint32_t>> at_vertex(mesh.points.size()), found(mesh.tets.size());
@@ -123,6 +144,7 @@ void ShadowBoundaries::spread(const mesh::BaseMesh& mesh) {
         for (const std::uint32_t t : at_vertex[a.value])
             if (std::find(mesh.tets[t].begin(), mesh.tets[t].end(), b) != mesh.tets[t].end())
                 try_tet(t);
+        if (at_vertex[a.value].empty()) try_tets_along(mesh, a, b, try_tet);
         for (std::size_t n = 0; n < reached.size(); ++n) {
             const std::uint32_t t = reached[n];
             for (int face = 0; face < 4; ++face) {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "radiosity/open_places.h"
+
 namespace tyndall::radiosity {
 namespace {
 
@@ -137,12 +139,13 @@ TetId ShadowCuts::tet_of(ZoneId zone) const {
 }
 
 TetId ShadowCuts::tet_of(PatchId patch) const {
-    const auto side = mesh_.forest().base_facet_side(patch);
-    return enclosure_.mesh.facets[side / 2].tets[side % 2];
+    return mesh::tet_before(enclosure_.mesh, mesh_.forest().base_facet_side(patch),
+                            mesh_.forest().centroid(patch));
 }
 
 void ShadowCuts::incident(ZoneId zone, Point x, std::vector<double>& value) const {
-    light_.at_zone(x, tet_of(zone), value);
+    const OpenPlace place = open_place(enclosure_, x, tet_of(zone));
+    light_.at_zone(place.x, place.tet, value);
 }
 
 void ShadowCuts::incident(PatchId patch, Point x, std::vector<double>& value) const {

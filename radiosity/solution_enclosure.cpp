@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "mesh/body.h"
 #include "mesh/input_error.h"
 #include "radiosity/solution_parts.h"
 
@@ -63,6 +64,24 @@ void write_facets(Hdf5Writer& file, const Enclosure& e) {
     file.array(enclosure_path + "/facet_source", sources);
     file.array(enclosure_path + "/facet_opaque", opaque);
     file.array(enclosure_path + "/facet_sides", sides, 2);
+    std::vector<std::uint32_t> bodies;
+    for (const mesh::Body& body : e.mesh.bodies)
+        bodies.insert(bodies.end(), {body.first.value, body.end.value});
+    if (!bodies.empty()) file.array(enclosure_path + "/bodies", bodies, 2);
+}
+
+// Facets that stand in tets, the last ones; a scene without any has no such array.
+void read_bodies(const Hdf5Reader& file, Enclosure& e) {
+    if (!file.has(enclosure_path + "/bodies")) return;
+    const auto ends = indices(file, "bodies", 2, e.mesh.facets.size() + 1, false);
+    for (std::size_t k = 0; k < ends.size(); k += 2) {
+        const std::uint32_t before = k == 0 ? ends[0] : ends[k - 1];
+        if (ends[k] != before || ends[k] >= ends[k + 1])
+            file.fail(fmt::format("'{}/bodies' does not ascend", enclosure_path));
+        e.mesh.bodies.push_back(mesh::body_of(e.mesh, FacetId(ends[k]), FacetId(ends[k + 1])));
+    }
+    if (ends.empty() || ends.back() != e.mesh.facets.size())
+        file.fail(fmt::format("'{}/bodies' are not the last facets", enclosure_path));
 }
 
 void read_facets(const Hdf5Reader& file, Enclosure& e) {
@@ -138,6 +157,7 @@ Enclosure read_enclosure(const Hdf5Reader& file) {
     read_tets(file, enclosure);
     read_facets(file, enclosure);
     read_regions(file, enclosure);
+    read_bodies(file, enclosure);
     return enclosure;
 }
 

@@ -11,6 +11,7 @@
 #include "mesh/entry.h"
 #include "mesh/input_error.h"
 #include "mesh/walk.h"
+#include "radiosity/open_places.h"
 #include "render/element_fields.h"
 
 namespace tyndall::render {
@@ -218,7 +219,7 @@ FieldPicture field_slice(const Solution& solution, const Plane& plane,
             const TetId tet = mesh::locate(e.mesh, p, near);
             if (!tet.valid()) continue;
             near = tet;
-            if (e.solid(tet) || e.medium_of(tet) == none) continue;
+            if (e.solid(tet) || e.medium_of(tet) == none || radiosity::covered(e, p)) continue;
             const auto zone = solution.forest.leaf_at(mesh::root_zone(tet), p);
             ids[y * window.width + x] = zone.value;
             values[y * window.width + x] = field.of_zone(solution, zone, p);

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "mesh/input_error.h"
+#include "render/renderers.h"
 
 namespace tyndall::render {
 namespace {
@@ -39,6 +40,7 @@ void refuse_settled(const radiosity::Enclosure& e) {
 }  // namespace
 
 PathMedia::PathMedia(const radiosity::Enclosure& e) : bands_(e.bands) {
+    refuse_bodies(e);
     refuse_settled(e);
     for (const auto& medium : e.media) {
         Optics o;

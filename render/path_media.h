@@ -40,7 +40,8 @@ struct Collision {
 // Optical depths are exact, where κ_t varies as well (regular_grid.h): nothing is marched.
 class PathMedia {
   public:
-    // Errors: mesh::InputError for heat in several bands, whose temperatures only a solve finds.
+    // Errors: mesh::InputError for heat in several bands, whose temperatures only a solve finds,
+    //   and for bodies (renderers.h).
     explicit PathMedia(const radiosity::Enclosure& enclosure);
 
     std::size_t bands() const { return bands_; }

@@ -16,7 +16,8 @@ namespace tyndall::render {
 //   specular_reflection.
 // Method: LightPaths; goals: sampled_picture (samples, error, time). Media have the scattering
 //   coefficients and phase functions of the scene file, not the reduced ones of a solve.
-// Errors: mesh::InputError for a camera inside a solid, and for heat in several bands.
+// Errors: mesh::InputError for a camera inside a solid, for heat in several bands, and for
+//   bodies (renderers.h).
 // Cost: about 5 µs a path in a room. Error: samples^−1/2.
 // Source: Kajiya (1986); see light_paths.h.
 Image path_traced(const radiosity::Enclosure& enclosure, const Camera& camera,

@@ -13,6 +13,7 @@
 
 #include "mesh/input_error.h"
 #include "radiosity/item_buffer.h"
+#include "render/renderers.h"
 #include "render/seen_solution.h"
 
 namespace tyndall::render {
@@ -27,6 +28,7 @@ using radiosity::ItemBuffer;
 constexpr std::size_t rows_at_once = 8;  // of pixels: one piece of work
 
 void refuse(const radiosity::Enclosure& enclosure, const Camera& camera) {
+    refuse_bodies(enclosure);
     if (camera.projection != radiosity::PictureProjection::perspective || camera.lens)
         throw mesh::InputError(fmt::format(
             "camera \"{}\": projected_zones draws perspective pictures without a lens. Choose "

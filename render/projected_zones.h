@@ -21,7 +21,7 @@ namespace tyndall::render {
 // each
 //   other, as there may be where whole zones are sorted.
 // Errors: mesh::InputError for an eye in a solid, and for cameras that are not perspective, or have
-//   a lens: a projection onto a plane has one eye.
+//   a lens: a projection onto a plane has one eye; and for bodies (renderers.h).
 // Cost: elements × tiles of 128² sub-pixels, and the sub-pixels that each of them covers. Memory: a
 //   tile's lists. Same bits at any thread count.
 // Source: Rushmeier & Torrance (1987), section 5.

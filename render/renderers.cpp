@@ -16,9 +16,11 @@ namespace tyndall::render {
 namespace {
 
 constexpr NamedRenderer all[]{
-    {"line_of_sight", line_of_sight},         {"projected_zones", projected_zones},
-    {"last_scatter", last_scatter, true},     {"two_pass", two_pass, true},
-    {"path_traced", path_traced_scene, true},
+    {"line_of_sight", line_of_sight, true},
+    {"projected_zones", projected_zones},
+    {"last_scatter", last_scatter, false, true},
+    {"two_pass", two_pass, false, true},
+    {"path_traced", path_traced_scene, false, true},
 };
 
 }  // namespace
@@ -38,6 +40,18 @@ const NamedRenderer& renderer_named(std::string_view name) {
     if (found != std::end(all)) return *found;
     throw mesh::InputError(fmt::format("there is no render method \"{}\". Choose one of {}.", name,
                                        fmt::join(renderer_names(), ", ")));
+}
+
+void refuse_bodies(const radiosity::Enclosure& enclosure) {
+    if (enclosure.mesh.bodies.empty()) return;
+    const auto sides = enclosure.facet_sides[enclosure.mesh.bodies.front().first.value];
+    const auto side = sides[0] != radiosity::none ? sides[0] : sides[1];
+    const std::string name =
+        side == radiosity::none ? "an object" : fmt::format("\"{}\"", enclosure.sides[side].name);
+    throw mesh::InputError(fmt::format(
+        "{} moves through the mesh without being cut into it, which line_of_sight alone can draw. "
+        "Choose that method, or solve the scene of this frame by itself.",
+        name));
 }
 
 }  // namespace tyndall::render

@@ -19,6 +19,7 @@ using Renderer = Image (*)(const radiosity::Solution&, const Camera&, const Rend
 struct NamedRenderer {
     std::string_view name;
     Renderer render;
+    bool bodies = false;  // sees what moves as a body in the mesh (mesh/body.h); others refuse it
     bool draws_lots = false;  // heeds RenderOptions::error and time, and has a layer "error"
 };
 
@@ -29,5 +30,9 @@ std::vector<std::string_view> renderer_names();
 
 // Errors: mesh::InputError that lists the names there are.
 const NamedRenderer& renderer_named(std::string_view name);
+
+// Of methods that do not see what moves as a body in the mesh (mesh/body.h).
+// Errors: mesh::InputError where there is such a body, with its name.
+void refuse_bodies(const radiosity::Enclosure& enclosure);
 
 }  // namespace tyndall::render

@@ -21,7 +21,8 @@ namespace tyndall::render {
 //   Else: LightPaths, handed over to the solution at the bounce `options.bounces` (0: 1 where media
 //   scatter evenly, 3 where not): there direct light goes through reduced extinction, and the rest
 //   is gathered along one ray.
-// Errors: mesh::InputError for a camera inside a solid, and for heat in several bands.
+// Errors: mesh::InputError for a camera inside a solid, for heat in several bands, and for
+//   bodies (renderers.h).
 // Cost: about 10 µs a sample in a room.
 // Source: Chen, Rushmeier, Miller & Turner (1991); Rushmeier (1991).
 Image two_pass(const radiosity::Solution& solution, const Camera& camera,

@@ -134,6 +134,63 @@ TEST_CASE("Frames that change in emission are sums, and equal full solves within
     CHECK(place.read("again.exr") == place.read("film/frames/0003.exr"));
 }
 
+TEST_CASE("Objects that move keep the room's light, and equal full solves within the goal",
+          "[animate]") {
+    const test::Workplace place("animate_moves");
+    std::string with_box = animated_room;
+    const std::string surfaces = "surface = [ ";
+    with_box.insert(with_box.find(surfaces) + surfaces.size(),
+                    "{ name = \"box\", material = \"grey\", translate = [0, 0, 0], "
+                    "box = { min = [0.5, 0.4, 0.3], max = [0.9, 0.8, 0.7] } },\n            ");
+    const std::string moves =
+        track("surface.box.translate", "frames = [0, 3]\nvalues = [[0, 0, 0], [0.6, 0.5, 0.4]]");
+    place.write("room.toml", with_box + "[animation]\nframes = 4\n" + moves);
+    const auto report = Json::parse(place.good("animate room.toml -o film --json"));
+    CHECK(done(place, "film") == "moved moved moved moved");
+    CHECK(report.at("units").at(0).at("moving").at(0) == "box.bottom");
+    CHECK(report.at("frames").at(0).at("rays_share") == 0.0);
+    const double share = report.at("frames").at(3).at("rays_share").get<double>();
+    CHECK(share > 0.0);
+    CHECK(share < 0.5);  // a box of 0.4 m in a room of 2 m
+
+    place.good("run room.toml --quiet -o whole --set 'surface.box.translate=[0.6,0.5,0.4]'");
+    const auto compared =
+        Json::parse(place.good("compare film/frames/0003.exr whole/image.exr --json"));
+    // As sums: 16 x 16 pixels that few rays make, on another mesh, to the goal of 0.2.
+    CHECK(compared.at("rmse").get<double>() < 0.2);
+    CHECK(std::abs(compared.at("bias").get<double>()) < 0.1);
+    // A part is the same, and a solution alone gives the picture again.
+    place.good("animate room.toml -o part --quiet --frames 3");
+    CHECK(place.read("part/frames/0003.exr") == place.read("film/frames/0003.exr"));
+    place.good("render film/solutions/0003.vtkhdf --quiet -o again.exr");
+    CHECK(place.read("again.exr") == place.read("film/frames/0003.exr"));
+    for (const std::string method : {"projected_zones", "two_pass", "path_traced"}) {
+        const auto refused =
+            place.run("render film/solutions/0003.vtkhdf --quiet -o no.exr --method " + method);
+        CHECK(refused.code != 0);
+        CHECK(refused.err.find("moves through the mesh") != std::string::npos);
+    }
+}
+
+TEST_CASE("What cannot be a body is solved anew in every frame, and says why", "[animate]") {
+    const test::Workplace place("animate_no_body");
+    const auto reason = [&](const std::string& tracks, const std::string& more) {
+        place.write("room.toml", animated_room + "[animation]\nframes = 2\n" + tracks);
+        const auto report =
+            Json::parse(place.good("animate room.toml -o film --json --frames 1" + more));
+        CHECK(done(place, "film") == "solved");
+        const Json warnings = report.at("frames").at(0).at("warnings");
+        return warnings.empty() ? "" : warnings.back().get<std::string>();
+    };
+    const std::string lamp_moves =
+        track("surface.lamp.translate", "frames = [0, 1]\nvalues = [[0, 0, -0.1], [0, 0, -0.2]]");
+    CHECK(reason(lamp_moves, "") == "what moves is solved anew in every frame, since it emits.");
+    CHECK(reason(lamp_moves, " --set solve.row_detail=4").find("(row_detail)") !=
+          std::string::npos);
+    CHECK(reason(lamp_moves, " --set render.method=two_pass") ==
+          "what moves is solved anew in every frame, since it is drawn by \"two_pass\".");
+}
+
 TEST_CASE("Frames are kept, made in parts, and made anew for another scene", "[animate]") {
     const test::Workplace place("animate_parts");
     const std::string camera =

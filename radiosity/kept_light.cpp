@@ -1,0 +1,196 @@
+#include "radiosity/kept_light.h"
+
+#include <algorithm>
+
+namespace tyndall::radiosity {
+namespace {
+
+// Of a gather's rays: where more meet a body, all are walked anew.
+constexpr double most_met = 0.4;
+
+// Functions linear in the elements, given their means in a band ([element * bands + band]).
+void set_linear(const KeptLight& kept, const ExchangeAreas& areas, const std::vector<double>& mean,
+                std::size_t band, Affine* functions) {
+    const Elements& e = kept.elements;
+    std::vector<glm::vec3> gradients(e.size(), glm::vec3(0.0f));
+    if (areas.gradients) gradients = areas.gradients->of(mean);
+    for (std::size_t i = 0; i < e.size(); ++i) {
+        const Direction g(gradients[i]);
+        const Point centre = e.is_patch(i)
+                                 ? centre_of(*kept.enclosure, kept.coarse_forest, e.patches[i])
+                                 : centre_of(*kept.enclosure, kept.coarse_forest, e.zone(i));
+        functions[i * e.bands + band] = {g, mean[i] - glm::dot(g, centre)};
+    }
+}
+
+}  // namespace
+
+std::size_t KeptLight::memory() const {
+    std::size_t bytes =
+        direct.memory() + gathers.memory() + 2 * forest.memory() + coarse_forest.memory();
+    for (const ExchangeAreas& one : areas) bytes += one.memory();
+    return bytes;
+}
+
+void KeptLight::finish(std::shared_ptr<const Enclosure> of, const Forest& leaves,
+                       Fields zone_sources, Fields patch_sources, double detail) {
+    enclosure = std::move(of);
+    forest = leaves;
+    for (Fields* fields : {&zone_sources, &patch_sources}) {
+        extend(forest, *fields);
+        coarsen(forest, *fields);
+    }
+    in_zones = std::make_unique<const GatherScene>(*enclosure, forest, zone_sources, detail);
+    on_patches = std::make_unique<const GatherScene>(*enclosure, forest, patch_sources, detail);
+    direct.settle();
+    gathers.settle();
+}
+
+std::vector<double> gathered_from(const CoarseSolution& coarse,
+                                  const std::vector<double>& incident_direct) {
+    const Elements& e = coarse.elements();
+    std::vector<double> result(e.size() * e.bands);
+    for (std::size_t i = 0; i < e.size(); ++i)
+        for (std::size_t b = 0; b < e.bands; ++b) {
+            const std::size_t k = i * e.bands + b;
+            result[k] = coarse.reflected(i, b);
+            if (e.is_patch(i)) result[k] -= e.scatter[k] * incident_direct[k];
+        }
+    return result;
+}
+
+std::string why_nothing_kept(const SolveOptions& o) {
+    if (o.exchange != "walked") return "is solved with exchange = \"" + o.exchange + "\"";
+    if (o.exchange_settings.smoothing != Smoothing::none) return "is solved with smoothing";
+    if (o.exchange_settings.interaction_radius > 0.0) return "is solved with an interaction radius";
+    if (o.row_detail > 0.0) return "is solved with level of detail in rows (row_detail)";
+    if (o.shots == Shots::on_the_fly) return "is solved with shots on the fly";
+    if (o.promotions > 0) return "is solved with promotions";
+    if (o.start == Start::single_zone) return "is solved with start = \"single-zone\"";
+    if (o.indicator) return "is refined by an indicator of the caller's";
+    return "";
+}
+
+bool fits(const KeptLight& kept, const Enclosure& enclosure) {
+    if (kept.empty()) return false;
+    const mesh::BaseMesh &a = kept.enclosure->mesh, &b = enclosure.mesh;
+    if (a.tets != b.tets || a.neighbours != b.neighbours || a.tet_facets != b.tet_facets ||
+        a.points.size() != b.points.size() || a.facets.size() != b.facets.size() ||
+        a.bodies.size() != b.bodies.size() || kept.enclosure->facet_sides != enclosure.facet_sides)
+        return false;
+    for (std::size_t f = 0; f < a.facets.size(); ++f)
+        if (a.facets[f].corners != b.facets[f].corners) return false;
+    for (std::size_t k = 0; k < a.bodies.size(); ++k)
+        if (a.bodies[k].first != b.bodies[k].first || a.bodies[k].end != b.bodies[k].end ||
+            a.bodies[k].closed != b.bodies[k].closed)
+            return false;
+    return true;
+}
+
+GatherChange::GatherChange(const KeptLight& before, const Enclosure& enclosure,
+                           std::vector<double> gathered_from)
+    : before_(before), bodies_(before.enclosure->mesh.bodies), bands_(enclosure.bands) {
+    bodies_.insert(bodies_.end(), enclosure.mesh.bodies.begin(), enclosure.mesh.bodies.end());
+    const Elements& e = before.elements;
+    const std::size_t n = e.size();
+    change_.resize(2 * n * bands_);
+    std::size_t made = 0;
+    std::vector<std::size_t> distinct;  // of the bands, as CoarseSolution has them
+    for (std::size_t b = 0; b < bands_; ++b) {
+        const std::size_t same = first_of_extinction(enclosure, b);
+        distinct.push_back(same < b ? distinct[same] : made++);
+        const ExchangeAreas& areas = before.areas[distinct[b]];
+        std::vector<double> r(n), lit(n);
+        for (std::size_t i = 0; i < n; ++i) {
+            const std::size_t k = i * bands_ + b;
+            r[i] = gathered_from[k] - before.gathered_from[k];
+            lit[i] = gathered_from[n * bands_ + k] - before.gathered_from[n * bands_ + k];
+        }
+        std::vector<double> mean = multiply(areas, e, r);  // (50)
+        for (std::size_t i = 0; i < n; ++i) mean[i] /= std::max(e.capacity[i * bands_ + b], 1e-300);
+        set_linear(before, areas, mean, b, &change_[0]);
+        set_linear(before, areas, lit, b, &change_[n * bands_]);
+    }
+}
+
+bool GatherChange::meets(const mesh::Ray& ray) const {
+    return std::ranges::any_of(
+        bodies_, [&](const mesh::Body& body) { return mesh::meets_sphere(body, ray); });
+}
+
+bool GatherChange::inside(Point x) const {
+    return std::ranges::any_of(bodies_, [&](const mesh::Body& body) {
+        return glm::distance(x, body.centre) <= body.radius;
+    });
+}
+
+// What lit patches send past a body is known as finely as the elements are: not beside it.
+bool near_body(const std::vector<mesh::Body>& bodies, Point x, double size) {
+    return std::ranges::any_of(bodies, [&](const mesh::Body& body) {
+        return glm::distance(x, body.centre) <= body.radius + size;
+    });
+}
+
+std::uint32_t GatherChange::element_at(const GatherPoint& point) const {
+    const mesh::BaseMesh& mesh = before_.enclosure->mesh;
+    const Forest& forest = before_.coarse_forest;
+    const TetId tet = point.start.tet;
+    if (!point.on_surface())
+        return before_.elements.of_zone[forest.leaf_at(mesh::root_zone(tet), point.x).value];
+    if (point.start.face == mesh::WalkStart::inside) return none;  // a body's
+    const FacetId facet = mesh.tet_facets[tet.value][point.start.face];
+    const Side side = mesh.facets[facet.value].tets[0] == tet ? Side::front : Side::back;
+    return before_.elements.of_patch[forest.leaf_at(mesh::root_patch(facet, side), point.x).value];
+}
+
+bool GatherChange::gather(const GatherScene& now, const GatherPoint& point, const PointSet& points,
+                          std::uint64_t seed, std::span<Gathered> incident,
+                          std::size_t& walked) const {
+    const auto size_of = [&](std::uint32_t e) -> double {
+        const Elements& elements = before_.elements;
+        return elements.is_patch(e) ? before_.coarse_forest[elements.patches[e]].longest_edge
+                                    : before_.coarse_forest[elements.zone(e)].longest_edge;
+    };
+    const double* kept = before_.gathers.find(point.x, point.normal);
+    if (!kept || inside(point.x)) return false;
+    const std::uint32_t element = element_at(point);
+    if (element == none || near_body(bodies_, point.x, 0.5 * size_of(element))) return false;
+    const GatherScene& before = point.on_surface() ? *before_.on_patches : *before_.in_zones;
+    const std::uint64_t stream =
+        point.on_surface() ? seed : hash_seed(seed, static_cast<std::uint64_t>(kept[2 * bands_]));
+    thread_local std::vector<mesh::Ray> met;
+    thread_local std::vector<bool> first_half;
+    met.clear();
+    first_half.clear();
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        const mesh::Ray ray{point.x, gather_direction(point, points(k, stream))};
+        if (!meets(ray)) continue;
+        met.push_back(ray);
+        first_half.push_back(2 * k < points.size());
+    }
+    const double count = static_cast<double>(points.size());
+    if (static_cast<double>(met.size()) > most_met * count) return false;
+    const double others = 1.0 - static_cast<double>(met.size()) / count;
+    for (std::size_t b = 0; b < bands_; ++b) {
+        incident[b].mean = kept[2 * b] + others * change_[element * bands_ + b].at(point.x) +
+                           change_[change_.size() / 2 + element * bands_ + b].at(point.x);  // (49)
+        incident[b].half_difference = kept[2 * b + 1];
+    }
+    thread_local std::vector<double> found, lost;
+    found.resize(bands_);
+    lost.resize(bands_);
+    for (std::size_t k = 0; k < met.size(); ++k) {
+        radiance_along(now, met[k], point.start, found);
+        radiance_along(before, met[k], point.start, lost);
+        for (std::size_t b = 0; b < bands_; ++b) {
+            const double change = (found[b] - lost[b]) / count;
+            incident[b].mean += change;
+            incident[b].half_difference += first_half[k] ? change : -change;
+        }
+    }
+    for (std::size_t b = 0; b < bands_; ++b) incident[b].mean = std::max(0.0, incident[b].mean);
+    walked += 2 * met.size();
+    return true;
+}
+
+}  // namespace tyndall::radiosity

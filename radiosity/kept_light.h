@@ -1,0 +1,82 @@
+// What a solve keeps for scenes in which bodies have moved, and what these make of it.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "radiosity/coarse_solution.h"
+#include "radiosity/gather.h"
+#include "radiosity/importance.h"
+
+namespace tyndall::radiosity {
+
+// Filled by a solve (Passes::keep); the same for all scenes that begin with it (Passes::moved).
+struct KeptLight {
+    explicit KeptLight(std::size_t bands) : direct(bands), gathers(2 * bands + 1) {}
+
+    bool empty() const { return !enclosure; }
+    // The last of what is kept: r of the leaves that was gathered from, and the places' values.
+    void finish(std::shared_ptr<const Enclosure> of, const Forest& leaves, Fields zone_sources,
+                Fields patch_sources, double detail);
+    std::size_t memory() const;
+
+    std::shared_ptr<const Enclosure> enclosure;
+    Forest coarse_forest;  // whose leaves are the coarse solution's elements
+    Elements elements;
+    std::vector<ExchangeAreas> areas;  // of each distinct extinction
+    // r of the elements, of patches less what they reflect of direct light; after these H from what
+    // patches reflect of it ([element * bands + band], twice) [W/m^2/sr].
+    std::vector<double> gathered_from;
+    Importance::Scale scale;
+    PlaceMemory direct;   // H^A at every place it was asked for
+    PlaceMemory gathers;  // mean and half difference a band, the seed's number
+    Forest forest;        // in the end
+    // What was gathered from in zones, and on patches.
+    std::unique_ptr<const GatherScene> in_zones, on_patches;
+};
+
+// Why a solve by these options keeps no light for bodies that move, as the end of a sentence that
+// begins with "it"; empty: it does.
+std::string why_nothing_kept(const SolveOptions& options);
+
+// Whether a solve of this enclosure can begin with it: the same mesh, bodies of the same triangles.
+bool fits(const KeptLight& kept, const Enclosure& enclosure);
+
+// r of the coarse elements, of patches less what they reflect of direct light, given H^A of the
+// elements ([element * bands + band]) [W/m^2/sr].
+std::vector<double> gathered_from(const CoarseSolution& coarse,
+                                  const std::vector<double>& incident_direct);
+
+// Gathers in a scene after its bodies have moved, from those before.
+//
+// Equation: with D rays, of which `m` meet a body's sphere before or now,
+//     H = H⁰ + (1 − m/D) ΔH + P − P⁰ + (1/D) Σ_m (L − L⁰)                              (49)
+//     ΔH_i = Σ_j S_ij⁰ (r_j − r_j⁰) / c_i
+// Symbols: L⁰ what a ray found before, L what it finds now.
+//   The sum over rays is exact. ΔH, what other rays find more or less since all light has changed a
+//   little, and P, what lit patches bring, are the coarse solution's, linear in its elements.
+class GatherChange {
+  public:
+    // `gathered_from`: as that of KeptLight, now. All arguments must outlive this.
+    GatherChange(const KeptLight& before, const Enclosure& enclosure,
+                 std::vector<double> gathered_from);
+
+    // H at a point, one value a band; false where it is to be gathered anew: nothing was kept, or a
+    // body is within half an element's size, or met by more than two fifths of the rays.
+    // Thread-safe; `walked` rays are counted, two for each that meets.
+    bool gather(const GatherScene& now, const GatherPoint& point, const PointSet& points,
+                std::uint64_t seed, std::span<Gathered> incident, std::size_t& walked) const;
+
+  private:
+    bool meets(const mesh::Ray& ray) const;
+    bool inside(Point x) const;
+    // The element that a gather's point lies in.
+    std::uint32_t element_at(const GatherPoint& point) const;
+
+    const KeptLight& before_;
+    std::vector<mesh::Body> bodies_;  // before and now
+    std::vector<Affine> change_;      // ΔH [element * bands + band]
+    std::size_t bands_;
+};
+
+}  // namespace tyndall::radiosity

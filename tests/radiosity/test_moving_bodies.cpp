@@ -1,0 +1,222 @@
+// Bodies that move through a mesh that stays: walks, rows, solves and files.
+#include "radiosity/moving_bodies.h"
+
+#include <cmath>
+
+#include "mesh/body.h"
+#include "radiosity/adaptive.h"
+#include "radiosity/exchange_methods.h"
+#include "radiosity/open_places.h"
+#include "radiosity/solution_file.h"
+#include "support/catch.h"
+#include "support/rooms.h"
+
+using namespace tyndall;
+using namespace tyndall::radiosity;
+
+namespace {
+
+constexpr double box_size = 0.45;  // [m]
+
+// The slit room with a box, its lowest corner at `corner`.
+Scene room_with_box(Point corner) {
+    Scene scene = test::slit_room();
+    test::add_surfaces(scene, "box", mesh::box(corner, corner + Point(box_size)), 0);
+    return scene;
+}
+
+const Point there(0.4, 0.3, 0.2), elsewhere(0.65, 1.1, 0.45);
+
+std::vector<std::size_t> box_of(const Scene& scene) {
+    std::vector<std::size_t> surfaces;
+    for (std::size_t s = 0; s < scene.surfaces.size(); ++s)
+        if (scene.surfaces[s].name.starts_with("box")) surfaces.push_back(s);
+    return surfaces;
+}
+
+std::shared_ptr<const Enclosure> with_box(Point corner) {
+    static const Enclosure still = [] {
+        const Scene scene = room_with_box(there);
+        return make_enclosure(without_surfaces(scene, box_of(scene)));
+    }();
+    const Scene scene = room_with_box(corner);
+    return std::make_shared<const Enclosure>(with_bodies(still, scene, box_of(scene)));
+}
+
+SolveOptions cheap() {
+    SolveOptions options;
+    options.error = 0.1;
+    options.rays = 64;
+    options.gather_rays = 64;
+    options.element_size = 0.5;
+    options.max_elements = 20000;
+    return options;
+}
+
+// A refined forest, its elements and rows.
+struct Rows {
+    std::shared_ptr<const Enclosure> enclosure;
+    Forest forest;
+    Elements elements;
+    ExchangeOptions options;
+
+    Rows(Point corner, std::size_t rays) : enclosure(with_box(corner)) {
+        ElementMesh mesh(*enclosure);
+        mesh.refine_to({0.7, 2000, 2000});
+        forest = mesh.forest();
+        elements = elements_of_leaves(*enclosure, forest);
+        options.rays = rays;
+        options.radiance = Radiance::linear;
+    }
+    Discretization discretization() const { return {*enclosure, forest, elements}; }
+    ExchangeAreas walked() const {
+        return all_rows(exchange_method("walked").method, discretization(), options);
+    }
+};
+
+double relative(double a, double b) {
+    return std::abs(a - b) / std::abs(b);
+}
+
+}  // namespace
+
+TEST_CASE("Moved rows are those walked anew", "[moving]") {
+    const Rows before(there, 64), now(elsewhere, 64);
+    const ExchangeAreas kept = before.walked(), walked = now.walked();
+    std::atomic<std::size_t> rays = 0;
+    const ExchangeAreas moved =
+        moved_rows(now.discretization(), {before.discretization(), kept}, now.options, rays);
+    CHECK(double(rays) < 0.5 * double(64 * now.elements.size()));
+    REQUIRE(moved.rows() == walked.rows());
+    const std::size_t n = now.elements.size();
+    double worst = 0.0, worst_moment = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+        std::vector<double> difference(n + 1, 0.0);
+        std::vector<Direction> moments(n + 1, Direction(0.0));
+        for (const auto& [areas, sign] : {std::pair(&moved, 1.0), std::pair(&walked, -1.0)})
+            for (std::size_t k = areas->starts[i]; k < areas->starts[i + 1]; ++k) {
+                difference[areas->columns[k]] += sign * areas->value(k);
+                moments[areas->columns[k]] += sign * Direction(areas->moments[k]);
+            }
+        const double c = now.elements.capacity[i];
+        for (const double d : difference) worst = std::max(worst, std::abs(d) / c);
+        for (const auto& m : moments) worst_moment = std::max(worst_moment, glm::length(m) / c);
+    }
+    // Rows are kept in single precision, 6e-8 of a row, and corrected twice; lengths are metres.
+    CHECK(worst < 5e-7);
+    CHECK(worst_moment < 2e-6);
+    CHECK(closure_error(moved, now.elements, 0) < 1e-6);
+}
+
+TEST_CASE("A body in the tetrahedra is the box that they conform to", "[moving]") {
+    const Scene scene = room_with_box(there);
+    SolveOptions options = cheap();
+    options.refinement = Refinement::none;
+    options.rays = 256;
+    const Solution body = solve_adaptively(with_box(there), options);
+    const Solution cut =
+        solve_adaptively(std::make_shared<const Enclosure>(make_enclosure(scene)), options);
+    for (const auto& [name, power] : cut.report.net_power) {
+        INFO(name << ": " << body.report.net_power.at(name)[0] << " W, conforming " << power[0]);
+        if (name == "outside") continue;
+        // Two meshes, of elements of half a metre, on which a side of the box is two. The bound is
+        // chosen, not derived.
+        CHECK(relative(body.report.net_power.at(name)[0], power[0]) < 0.06);
+    }
+    CHECK(std::abs(body.report.energy_balance) < 0.01);
+}
+
+TEST_CASE("Furnace: a room with a body in it has radiance 1 everywhere", "[moving]") {
+    Scene scene = room_with_box(elsewhere);
+    for (Material& m : scene.materials) m.emission.clear();
+    scene.materials[0].emission = {0.4};
+    scene.materials[0].emits = EmittingSides::both;
+    scene.materials[1] = scene.materials[0];
+    scene.media[0].emission = {1.0};
+    const auto surfaces = box_of(scene);
+    const Enclosure still = make_enclosure(without_surfaces(scene, surfaces));
+    SolveOptions options = cheap();
+    options.direct_light = DirectLightMode::rows;
+    const Solution solution = solve_adaptively(
+        std::make_shared<const Enclosure>(with_bodies(still, scene, surfaces)), options);
+    double worst = 0.0;
+    for (const double x : solution.coarse.radiance) worst = std::max(worst, std::abs(x - 1.0));
+    CHECK(worst < 1e-5);  // single precision of the rows, over some reflections
+}
+
+TEST_CASE("What a body covers is not open", "[moving]") {
+    const auto enclosure = with_box(there);
+    const Point middle = there + Point(0.5 * box_size);
+    CHECK(covered(*enclosure, middle));
+    CHECK_FALSE(covered(*enclosure, there - Point(1e-6)));
+    const auto [x, tet] =
+        open_place(*enclosure, middle + Point(0.2, 0, 0), mesh::locate(enclosure->mesh, middle));
+    CHECK_FALSE(covered(*enclosure, x));
+    CHECK(x.x > there.x + box_size);
+    CHECK(x.x < there.x + box_size + 1e-4);
+    double volume = 0.0;
+    const Forest forest(enclosure->mesh);
+    for (std::size_t z = 0; z < forest.zone_count(); ++z)
+        if (medium_of(*enclosure, forest, ZoneId(z)) != none)
+            volume += open_share(*enclosure, forest, ZoneId(z), 4096) * forest.volume(ZoneId(z));
+    CHECK(volume == Approx(12.0 - std::pow(box_size, 3)).epsilon(2e-3));  // of few points
+}
+
+TEST_CASE("A solve after a body has moved is the full solve's", "[moving]") {
+    SolveOptions options = cheap();
+    options.error = 0.5;
+    options.element_size = 1.0;
+    options.max_elements = 1200;
+    Passes passes;
+    passes.keep = std::make_shared<KeptLight>(1);
+    const Solution plain = solve_adaptively(with_box(there), options);
+    const Solution first = solve_adaptively(with_box(there), options, {}, {}, passes);
+    CHECK(first.coarse.radiance == plain.coarse.radiance);  // keeping changes no bit
+    REQUIRE(fits(*passes.keep, *with_box(elsewhere)));
+    Passes moving;
+    moving.moved = passes.keep;
+    const Solution moved = solve_adaptively(with_box(elsewhere), options, {}, {}, moving);
+    const Solution full = solve_adaptively(with_box(elsewhere), options);
+    for (const auto& [name, power] : full.report.net_power) {
+        if (name == "outside") continue;
+        INFO(name << ": " << moved.report.net_power.at(name)[0] << " W, full " << power[0]);
+        CHECK(relative(moved.report.net_power.at(name)[0], power[0]) < 0.02);
+    }
+    const auto rays = [](const Solution& s) {
+        std::size_t sum = 0;
+        for (const auto& pass : s.report.passes) sum += pass.rays;
+        return sum;
+    };
+    CHECK(double(rays(moved)) < 0.6 * double(rays(full)));
+}
+
+TEST_CASE("A solution file keeps bodies", "[moving]") {
+    SolveOptions options = cheap();
+    options.refinement = Refinement::none;
+    options.direct_light = DirectLightMode::rows;
+    options.element_size = 1.0;
+    const Solution solution = solve_adaptively(with_box(there), options);
+    const auto path = std::filesystem::temp_directory_path() / "tyndall_body.vtkhdf";
+    write_solution(path, solution, "{}");
+    const auto read = read_solution(path);
+    std::filesystem::remove(path);
+    CHECK(read.solution.enclosure->mesh == solution.enclosure->mesh);
+}
+
+TEST_CASE("Surfaces that have moved, and what cannot be a body", "[moving]") {
+    const Scene before = room_with_box(there);
+    Scene after = room_with_box(elsewhere);
+    const auto moved = moved_surfaces(before, after);
+    REQUIRE(moved);
+    CHECK(*moved == box_of(before));
+    CHECK(moved_surfaces(before, before)->empty());
+    const Enclosure still = make_enclosure(without_surfaces(before, *moved));
+    CHECK(why_no_bodies(after, *moved, still) == "");
+    after.materials[0].reflectance = {0.4};
+    CHECK_FALSE(moved_surfaces(before, after));
+    CHECK(why_no_bodies(room_with_box({2.8, 1, 1}), *moved, still) ==
+          "leaves the hull of what stands still");
+    Scene lamp = before;
+    lamp.lights.push_back({"bulb", PointLight{there + Point(0.1), {1.0}}, ""});
+    CHECK(why_no_bodies(lamp, *moved, still) == "holds a camera, a light or the point of a medium");
+}
