@@ -220,11 +220,10 @@ void add_render_command(Shell& shell) {
         .between(std::size_t(1), std::size_t(65536));
     command
         .option("--error", options->error,
-                "Goal: estimated error in blocks of 4 x 4 pixels, over the mean (two_pass, "
-                "path_traced)")
+                "Goal: estimated error in blocks of 4 x 4 pixels, over the mean "
+                "(last_scatter, two_pass, path_traced)")
         .positive();
-    command.option("--time", options->time, "Wall time to spend [s] (two_pass, path_traced)")
-        .positive();
+    command.option("--time", options->time, "Wall time to spend [s] (likewise)").positive();
     command.option("--crop", options->crop, "These pixels of the picture: left,top,width,height");
     command.flag("--mesh", options->mesh, "Draw the edges of the elements that are seen");
     command.option("--field", options->field,

@@ -13,6 +13,7 @@
 #include "radiosity/light_cone.h"
 #include "radiosity/light_sources.h"
 #include "radiosity/mean_transmittance.h"
+#include "radiosity/narrow_parts.h"
 #include "radiosity/occlusion.h"
 #include "radiosity/sampled_visibility.h"
 
@@ -152,6 +153,10 @@ struct DirectLight::Data {
     void find_cones();
 
     void gather(const Receiver& receiver, std::span<double> incident) const;
+    void visit(const Receiver& receiver, double widest, const ArrivingPart& visit) const;
+    // What of an emitter the receiver sees; the whole emitter is left in scratch.relative, its
+    // parts in scratch.visible.
+    mesh::Visibility look(const Receiver& receiver, const AreaLight& light, Scratch& scratch) const;
     void from_area(const Receiver& receiver, const AreaLight& light, Scratch& scratch,
                    std::span<double> incident) const;
     void from_part(const Receiver& receiver, const AreaLight& light, std::span<const Point> part,
@@ -162,6 +167,22 @@ struct DirectLight::Data {
     void from_path(const Receiver& receiver, Direction path, mesh::Reach reach,
                    const Spectrum& strength, double factor, std::span<double> incident) const;
     double weight(const Receiver& receiver, std::span<const Point> corners) const;
+
+    // on_path(path, reach, strength, factor) for every light without a size (2), (3).
+    template <class OnPath>
+    void for_paths(const Receiver& receiver, OnPath&& on_path) const {
+        for (const Sun& sun : beams)
+            on_path(-sun.direction, mesh::Reach::infinite, sun.irradiance, 1.0);
+        for (const PointLight& light : points) {
+            const Direction path = light.position - receiver.x;
+            on_path(path, mesh::Reach::finite, light.intensity, 1.0 / glm::dot(path, path));
+        }
+        for (const SpotLight& light : spots) {
+            const Direction path = light.position - receiver.x;
+            on_path(path, mesh::Reach::finite, light.intensity,
+                    spot_share(light, -path) / glm::dot(path, path));
+        }
+    }
 };
 
 void DirectLight::Data::add_emitters() {
@@ -271,29 +292,35 @@ void DirectLight::Data::from_samples(const Receiver& receiver, const AreaLight& 
         incident[band] += light.radiance[band] * share * scratch.mean[band];
 }
 
-void DirectLight::Data::from_area(const Receiver& receiver, const AreaLight& light,
-                                  Scratch& scratch, std::span<double> incident) const {
+mesh::Visibility DirectLight::Data::look(const Receiver& receiver, const AreaLight& light,
+                                         Scratch& scratch) const {
     const bool finite = light.reach == mesh::Reach::finite;
     auto& corners = scratch.relative;
     corners.assign(light.corners.begin(), light.corners.end());
     if (finite) {
         for (Point& p : corners) p -= receiver.x;
-        if (glm::dot(light.normal, corners[0]) >= -tolerance) return;  // not in front of it
+        // Not in front of it.
+        if (glm::dot(light.normal, corners[0]) >= -tolerance) return mesh::Visibility::none;
     }
     if (receiver.on_surface) {
         scratch.above.clear();
         mesh::clip(corners, receiver.normal, 0.0, scratch.above);
         corners.swap(scratch.above);
-        if (corners.size() < 3) return;
+        if (corners.size() < 3) return mesh::Visibility::none;
     }
     const mesh::Target target{corners, light.reach, receiver.normal,
                               into(enclosure.mesh, receiver)};
     const mesh::VisibleLimits limits{options.exact_occluders};
-    switch ((finite ? inner : all).look(receiver.x, target, limits, scratch.visible)) {
+    return (finite ? inner : all).look(receiver.x, target, limits, scratch.visible);
+}
+
+void DirectLight::Data::from_area(const Receiver& receiver, const AreaLight& light,
+                                  Scratch& scratch, std::span<double> incident) const {
+    switch (look(receiver, light, scratch)) {
         case mesh::Visibility::none:
             return;
         case mesh::Visibility::too_many:
-            return from_samples(receiver, light, corners, scratch, incident);
+            return from_samples(receiver, light, scratch.relative, scratch, incident);
         case mesh::Visibility::all:
         case mesh::Visibility::part:
             for (std::size_t k = 0; k < scratch.visible.visible.size(); ++k)
@@ -328,18 +355,45 @@ void DirectLight::Data::gather(const Receiver& receiver, std::span<double> incid
     thread_local Scratch scratch;
     scratch.mean.resize(incident.size());
     for (const AreaLight& light : areas) from_area(receiver, light, scratch, incident);
-    for (const Sun& sun : beams)
-        from_path(receiver, -sun.direction, mesh::Reach::infinite, sun.irradiance, 1.0, incident);
-    for (const PointLight& light : points) {
-        const Direction path = light.position - receiver.x;
-        from_path(receiver, path, mesh::Reach::finite, light.intensity, 1.0 / glm::dot(path, path),
-                  incident);
+    for_paths(receiver, [&](Direction path, mesh::Reach reach, const Spectrum& s, double factor) {
+        from_path(receiver, path, reach, s, factor, incident);
+    });
+}
+
+void DirectLight::Data::visit(const Receiver& receiver, double widest,
+                              const ArrivingPart& visit) const {
+    thread_local Scratch scratch;
+    thread_local std::vector<double> part;
+    scratch.mean.resize(enclosure.bands);
+    const auto tell = [&](Direction towards, auto&& from) {
+        part.assign(enclosure.bands, 0.0);
+        from();
+        if (!shines(part)) return;
+        for (double& v : part) v *= 4.0 * pi;
+        visit(glm::normalize(towards), part);
+    };
+    for (const AreaLight& light : areas) {
+        const auto visibility = look(receiver, light, scratch);
+        if (visibility == mesh::Visibility::none) continue;
+        const bool sampled = visibility == mesh::Visibility::too_many;
+        const auto triangle = [&](const std::array<Point, 3>& corners) {
+            tell(corners[0] + corners[1] + corners[2], [&] {
+                if (sampled)
+                    from_samples(receiver, light, corners, scratch, part);
+                else
+                    from_part(receiver, light, corners, scratch, part);
+            });
+        };
+        if (sampled) {
+            for_narrow_parts(scratch.relative, widest, triangle);
+            continue;
+        }
+        for (std::size_t k = 0; k < scratch.visible.visible.size(); ++k)
+            for_narrow_parts(scratch.visible.visible[k], widest, triangle);
     }
-    for (const SpotLight& light : spots) {
-        const Direction path = light.position - receiver.x;
-        from_path(receiver, path, mesh::Reach::finite, light.intensity,
-                  spot_share(light, -path) / glm::dot(path, path), incident);
-    }
+    for_paths(receiver, [&](Direction path, mesh::Reach reach, const Spectrum& s, double factor) {
+        tell(path, [&] { from_path(receiver, path, reach, s, factor, part); });
+    });
 }
 
 DirectLight::DirectLight(const Enclosure& enclosure, const DirectLightOptions& options)
@@ -357,6 +411,10 @@ void DirectLight::at_zone(Point x, TetId tet, std::span<double> incident) const 
     const Direction none(0.0);
     if (!is_known(x, none, incident)) data_->gather({x, tet}, incident);
     if (keep_) keep_->keep(x, none, incident);
+}
+
+void DirectLight::visit_zone(Point x, TetId tet, double widest, const ArrivingPart& visit) const {
+    data_->visit({x, tet}, widest, visit);
 }
 
 void DirectLight::at_patch(Point x, Direction n, TetId tet, std::span<double> incident) const {

@@ -20,6 +20,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -44,6 +45,10 @@ struct LightPower {
     Spectrum power;    // [W]
 };
 
+// A part of the light that arrives at a point: the unit direction that it comes from, and ∫ I τ dω
+// over it, one value a band [W/m^2].
+using ArrivingPart = std::function<void(Direction towards, std::span<const double> irradiance)>;
+
 // Every call is thread-safe and depends on its arguments alone. Keeps a reference to the enclosure.
 class DirectLight {
   public:
@@ -58,6 +63,11 @@ class DirectLight {
     // H^A at x in a medium, `tet` the base tet that holds x; `incident` has one value a band and is
     // overwritten [W/m^2/sr].
     void at_zone(Point x, TetId tet, std::span<double> incident) const;
+
+    // The same light by where it comes from, for phase functions: all that at_zone sums, as parts
+    // that are `widest` across at most, seen from x, visible throughout; 4π H^A is their sum.
+    // Where visibility is sampled, parts are those of the whole emitter, each with its mean share.
+    void visit_zone(Point x, TetId tet, double widest, const ArrivingPart& visit) const;  // [rad]
 
     // H^A (irradiance / π) at x on a surface whose lit side looks along the unit normal n; `tet`
     // the base tet on that side.

@@ -235,13 +235,13 @@ void warn_of_directions(const Scene& scene, Enclosure& enclosure) {
             warn(fmt::format(
                 "medium \"{}\" scatters anisotropically (g = {}): the solve and the line-of-sight "
                 "picture use the reduced scattering coefficient (1 - g) kappa_s. Render by "
-                "two_pass or path_traced for the phase function itself.",
+                "last_scatter, two_pass or path_traced for the phase function itself.",
                 medium.name, medium.asymmetry));
         if (medium.phase == PhaseKind::rayleigh)
             warn(
                 fmt::format("medium \"{}\" scatters by Rayleigh's phase function: the solve and "
-                            "the line-of-sight picture scatter isotropically. Render by two_pass "
-                            "or path_traced for the phase function itself.",
+                            "the line-of-sight picture scatter isotropically. Render by "
+                            "last_scatter, two_pass or path_traced for the phase function itself.",
                             medium.name));
     }
     for (const Material& material : scene.materials)

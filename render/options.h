@@ -15,9 +15,9 @@ struct RenderOptions {
     // patch's own linear function may be off by more than this share of the surfaces' mean
     // radiance.
     double direct_tolerance = 0.002;  // [-]
-    // Of methods that draw lots (two_pass, path_traced): go on, whatever `samples` says, until the
-    // picture's estimated error in blocks of 4 × 4 pixels, over its mean, is below this; 0: no goal
-    // [-].
+    // Of methods that draw lots (last_scatter, two_pass, path_traced): go on, whatever `samples`
+    // says, until the picture's estimated error in blocks of 4 × 4 pixels, over its mean, is below
+    // this; 0: no goal [-].
     double error = 0.0;
     // Or until so much wall time is spent, whichever is first; 0: no limit [s].
     double time = 0.0;

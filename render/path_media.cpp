@@ -119,6 +119,10 @@ double PathMedia::albedo(std::uint32_t medium, std::size_t band) const {
     return optics_[medium].albedo[band];
 }
 
+double PathMedia::given_back(std::uint32_t medium, std::size_t band) const {
+    return optics_[medium].given_back[band];
+}
+
 double PathMedia::direction_density(std::uint32_t medium, double cosine) const {
     const Optics& o = optics_[medium];
     return (1.0 - o.isotropic_share) * radiosity::phase_value(o.phase, cosine) +

@@ -63,6 +63,8 @@ class PathMedia {
     double scattered(std::uint32_t medium, std::size_t band, double cosine) const;
     // The same over all directions [-].
     double albedo(std::uint32_t medium, std::size_t band) const;
+    // κ_re / κ_t: the part of it that a medium with given heat gives back, evenly [-].
+    double given_back(std::uint32_t medium, std::size_t band) const;
     // Of the directions that sample_direction draws [1/sr].
     double direction_density(std::uint32_t medium, double cosine) const;
     Direction sample_direction(std::uint32_t medium, Direction before, RandomNumbers& random) const;

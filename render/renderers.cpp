@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "mesh/input_error.h"
+#include "render/last_scatter.h"
 #include "render/line_of_sight.h"
 #include "render/path_traced.h"
 #include "render/projected_zones.h"
@@ -17,6 +18,7 @@ namespace {
 constexpr NamedRenderer all[]{
     {"line_of_sight", line_of_sight, true},
     {"projected_zones", projected_zones},
+    {"last_scatter", last_scatter, false, true},
     {"two_pass", two_pass, false, true},
     {"path_traced", path_traced_scene, false, true},
 };

@@ -1,5 +1,6 @@
 // Every renderer against followed paths, layer by layer, over blocks of a picture.
 #include "radiosity/adaptive.h"
+#include "render/last_scatter.h"
 #include "render/line_of_sight.h"
 #include "render/path_traced.h"
 #include "render/two_pass.h"
@@ -135,4 +136,46 @@ TEST_CASE("Two passes: mirrors and gloss", "[picture][long]") {
         CHECK(by_two.noise < 0.01);
     }
     CHECK(test::over(paths, "specular_reflection").mean > 0.01 * mean);
+}
+
+// A mesh that knows next to nothing of the slit's shaft.
+TEST_CASE("Last scatter: shafts are right on a mesh that is too coarse for them", "[picture]") {
+    const auto scene = test::slit_room();
+    const auto camera = small_camera();
+    const auto solution = radiosity::solve_adaptively(
+        test::enclosed(scene), {.refinement = radiosity::Refinement::none, .rays = 64});
+    const auto paths = render::path_traced(*solution.enclosure, camera, {.samples = 256});
+    const auto last = render::last_scatter(solution, camera, {.samples = 64});
+    const auto line = render::line_of_sight(solution, camera, {.samples = 64});
+    const double mean = mean_of(paths);
+    const auto by_last = departure(paths, last, "single_scattering", mean);
+    const auto by_line = departure(paths, line, "single_scattering", mean);
+    INFO("last_scatter " << by_last.found << ", line_of_sight " << by_line.found << ", noise "
+                         << by_last.noise);
+    // Noise alone: single scattering takes nothing from the mesh.
+    CHECK(by_last.found < 2.0 * by_last.noise);
+    CHECK(by_last.noise < 0.02);
+    CHECK(by_line.found > 4.0 * by_last.found);
+}
+
+TEST_CASE("Last scatter: fog that scatters forwards", "[picture]") {
+    auto scene = test::slit_room();
+    scene.media[0].asymmetry = 0.7;
+    const auto camera = small_camera();
+    const auto solution = solved(scene, camera, 0.05);
+    const auto paths = render::path_traced(*solution.enclosure, camera, {.samples = 512});
+    const auto last = render::last_scatter(solution, camera, {.samples = 32});
+    const auto line = render::line_of_sight(solution, camera, {.samples = 16});
+    const double mean = mean_of(paths);
+    for (const char* layer : {"beauty", "single_scattering", "multiple_scattering"}) {
+        const auto by_last = departure(paths, last, layer, mean);
+        INFO(layer << " " << by_last.found << " with noise of " << by_last.noise);
+        // 2 % is what is asked of 16 × 16 blocks of a picture.
+        CHECK(by_last.found < std::hypot(2.0 * by_last.noise, 0.02));
+        CHECK(by_last.noise < 0.012);
+    }
+    // Two thirds of the multiple scattering are not in the isotropic picture.
+    CHECK(departure(paths, line, "multiple_scattering", mean).found > 0.1);
+    CHECK(test::over(last, "multiple_scattering").mean ==
+          Approx(test::over(paths, "multiple_scattering").mean).epsilon(0.03));
 }

@@ -262,6 +262,41 @@ TEST_CASE("Sampled visibility agrees with the exact", "[direct_light]") {
     CHECK(worst < 6e-3);
 }
 
+TEST_CASE("Parts of direct light add up to it, and are weighed by where they come from",
+          "[direct_light]") {
+    // A wall with a square hole between the ceiling and the receiver.
+    Enclosure e = open_box({{{0.4, 0.7}, {0.3, 0.8}, {0.5}}}, [](Point c, int axis) {
+        const bool hole = c.x > 0.4 && c.x < 0.7 && c.y > 0.3 && c.y < 0.8;
+        if (axis == 2 && c.z == 0.5 && !hole)
+            return std::optional(Face{Opacity::opaque, wall, wall});
+        return lit_ceiling(c, axis);
+    });
+    add_sides(e);
+    fill(e, 0.7);
+    e.lights = {{"sun", radiosity::Sun{glm::normalize(Direction(0.3, 0.2, -1)), {2.0}, 0.2}},
+                {"point", radiosity::PointLight{{0.5, 0.5, 0.7}, {0.1}}}};
+    const Point x(0.45, 0.6, 0.2);
+    const bool sampled = GENERATE(false, true);
+    const DirectLight light(e, {.exact_occluders = sampled ? 0u : 48u, .shadow_rays = 1024});
+    const auto weighed = [&](double widest, auto&& weight) {
+        double sum = 0.0;
+        light.visit_zone(x, test::tet_at(e.mesh, x), widest,
+                         [&](Direction towards, std::span<const double> irradiance) {
+                             CHECK(glm::length(towards) == Approx(1.0).epsilon(1e-12));
+                             sum += irradiance[0] * weight(towards);
+                         });
+        return sum;
+    };
+    // Exact but for the transmittance's cubature; sampled shadows have other rays for other parts.
+    CHECK(weighed(0.15, [](Direction) { return 1.0; }) ==
+          Approx(4.0 * pi * zone(light, e, x)).epsilon(sampled ? 0.02 : 1e-5));
+    const auto phase = [](Direction d) {
+        return radiosity::phase_value({.asymmetry = 0.7}, glm::dot(d, Direction(0.6, 0, 0.8)));
+    };
+    // The middle rule's error falls as the square of the width: 0.02's is nothing.
+    if (!sampled) CHECK(weighed(0.15, phase) == Approx(weighed(0.02, phase)).epsilon(0.004));
+}
+
 TEST_CASE("The same bits on any thread", "[direct_light]") {
     const auto face = [](Point c, int axis) -> std::optional<Face> {
         if (axis == 2 && c.z == 0.5 && c.x > 0.25) return Face{Opacity::opaque, wall, wall};
