@@ -27,7 +27,8 @@ namespace tyndall::render {
 //   scattering.
 // Limits: one scattering has its direction. Light that was turned forwards several times is taken
 //   for evenly scattered, or for light straight from the lamp (docs/limits.md).
-// Errors: mesh::InputError for a camera inside a solid, and for heat in several bands.
+// Errors: mesh::InputError for a camera inside a solid, for heat in several bands, and for
+//   bodies (renderers.h).
 // Cost: two places with direct light a sample; 6 · 16² walks, 2 ms, for each of up to some
 //   thousand places.
 // Same bits at any thread count.

@@ -164,7 +164,8 @@ TEST_CASE("Objects that move keep the room's light, and equal full solves within
     CHECK(place.read("part/frames/0003.exr") == place.read("film/frames/0003.exr"));
     place.good("render film/solutions/0003.vtkhdf --quiet -o again.exr");
     CHECK(place.read("again.exr") == place.read("film/frames/0003.exr"));
-    for (const std::string method : {"projected_zones", "two_pass", "path_traced"}) {
+    for (const std::string method :
+         {"projected_zones", "last_scatter", "two_pass", "path_traced"}) {
         const auto refused =
             place.run("render film/solutions/0003.vtkhdf --quiet -o no.exr --method " + method);
         CHECK(refused.code != 0);
