@@ -16,10 +16,8 @@ namespace tyndall::render {
 namespace {
 
 constexpr NamedRenderer all[]{
-    {"line_of_sight", line_of_sight, true},
-    {"projected_zones", projected_zones},
-    {"last_scatter", last_scatter, false, true},
-    {"two_pass", two_pass, false, true},
+    {"line_of_sight", line_of_sight, true},          {"projected_zones", projected_zones},
+    {"last_scatter", last_scatter, false, true},     {"two_pass", two_pass, false, true},
     {"path_traced", path_traced_scene, false, true},
 };
 
