@@ -73,7 +73,7 @@ double mean_of(const render::Image& image) {
 
 }  // namespace
 
-TEST_CASE("Three renderers show the slit room alike, layer by layer", "[picture]") {
+TEST_CASE("Three renderers show the slit room alike, layer by layer", "[picture][long]") {
     const auto camera = small_camera();
     const auto solution = solved(test::slit_room(), camera, 0.03);
     const auto paths = render::path_traced(*solution.enclosure, camera, {.samples = 512});
@@ -158,7 +158,7 @@ TEST_CASE("Last scatter: shafts are right on a mesh that is too coarse for them"
     CHECK(by_line.found > 4.0 * by_last.found);
 }
 
-TEST_CASE("Last scatter: fog that scatters forwards", "[picture]") {
+TEST_CASE("Last scatter: fog that scatters forwards", "[picture][long]") {
     auto scene = test::slit_room();
     scene.media[0].asymmetry = 0.7;
     const auto camera = small_camera();

@@ -65,7 +65,8 @@ TEST_CASE("Smoothed rows have the same bits at one thread and at two", "[threads
     }
 }
 
-TEST_CASE("Rows, fields and picture have the same bits at one thread and at two", "[threads]") {
+TEST_CASE("Rows, fields and picture have the same bits at one thread and at two",
+          "[threads][long]") {
     const Everything one = at_threads(1), two = at_threads(2);
     CHECK(one.areas.starts == two.areas.starts);
     CHECK(one.areas.columns == two.areas.columns);

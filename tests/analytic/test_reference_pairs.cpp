@@ -62,7 +62,8 @@ TEST_CASE("reference_pairs: rectangles past screens and through apertures", "[ex
 
 // What is more than a hundredth of the receiver's capacity, of patches, of a zone and its face, of
 // a zone and itself, of neighbours.
-TEST_CASE("walked: pairs in a medium, from 65536 rays a facet and tetrahedron", "[exchange]") {
+TEST_CASE("walked: pairs in a medium, from 65536 rays a facet and tetrahedron",
+          "[exchange][long]") {
     const auto file = test::reference("3a_box_dea_extinction");
     for (const std::string name :
          {"SS_opposed_z", "SS_perp_x0_z0", "VS_ownface_x0", "VV_self", "VV_face_adjacent_x",

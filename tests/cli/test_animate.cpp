@@ -135,7 +135,7 @@ TEST_CASE("Frames that change in emission are sums, and equal full solves within
 }
 
 TEST_CASE("Objects that move keep the room's light, and equal full solves within the goal",
-          "[animate]") {
+          "[animate][long]") {
     const test::Workplace place("animate_moves");
     std::string with_box = animated_room;
     const std::string surfaces = "surface = [ ";

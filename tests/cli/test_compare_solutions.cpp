@@ -83,7 +83,7 @@ TEST_CASE("A solution is no way off from itself, and by a tenth from one a tenth
     CHECK(errors.source->rmse >= errors.source->bias);
 }
 
-TEST_CASE("What the leaves hold comes nearer to the probes as the mesh gets finer") {
+TEST_CASE("What the leaves hold comes nearer to the probes as the mesh gets finer", "[long]") {
     const Folder folder;
     const auto fine = solved(folder, 0.2), coarse = solved(folder, 0.9);
     const cli::SolutionComparison options{128, 256};

@@ -183,7 +183,7 @@ TEST_CASE("a run that is killed while it writes leaves no half file under its na
     CHECK(Left(whole.place, "full").unfinished == 0);
 }
 
-TEST_CASE("Ctrl-C at any moment leaves a valid solution, from which the run goes on") {
+TEST_CASE("Ctrl-C at any moment leaves a valid solution, from which the run goes on", "[long]") {
     const Whole whole;
     for (int k = 1; k <= 4; ++k) {
         CAPTURE(k);

@@ -58,7 +58,7 @@ probe = { count = 8, rays = 64 }
 
 }  // namespace
 
-TEST_CASE("A study runs its matrix, measures, plots, and keeps what is done") {
+TEST_CASE("A study runs its matrix, measures, plots, and keeps what is done", "[long]") {
     // Run once; what each section goes on with is a copy.
     static const StudyWorkplace done;
     static const auto first = [] {

@@ -172,7 +172,7 @@ TEST_CASE("Last scatter: light scattered once has the phase function and the who
     CHECK(test::over(image, "transmittance").mean == Approx(std::exp(-1.5 * 2.0)).epsilon(1e-5));
 }
 
-TEST_CASE("Last scatter: where media scatter evenly it is line_of_sight's picture") {
+TEST_CASE("Last scatter: where media scatter evenly it is line_of_sight's picture", "[long]") {
     const auto camera = test::narrow_camera({0.3, 0.4, 1.0}, {3.0, 1.2, 0.8});
     // With cubes (an asymmetry of 1e-9 asks for them) and without.
     const double asymmetry = GENERATE(0.0, 1e-9);
@@ -189,7 +189,7 @@ TEST_CASE("Last scatter: where media scatter evenly it is line_of_sight's pictur
 
 // Both are (58); the one by cubes and closed forms, the other by paths that are handed over to the
 // solution at their first scattering.
-TEST_CASE("Last scatter is what two_pass finds by one scattering") {
+TEST_CASE("Last scatter is what two_pass finds by one scattering", "[long]") {
     const auto solution = solved_roughly(foggy_slit(0.7));
     render::Camera camera = test::narrow_camera({0.3, 0.4, 1.0}, {3.0, 1.2, 0.8});
     camera.fov_x = 1.0;
