@@ -10,12 +10,12 @@
 #include "mesh/visible_polygon.h"
 #include "radiosity/closed_forms.h"
 #include "radiosity/element_faces.h"
-#include "radiosity/light_cone.h"
 #include "radiosity/light_sources.h"
 #include "radiosity/mean_transmittance.h"
 #include "radiosity/narrow_parts.h"
 #include "radiosity/occlusion.h"
 #include "radiosity/sampled_visibility.h"
+#include "radiosity/shining_lights.h"
 
 namespace tyndall::radiosity {
 namespace {
@@ -26,14 +26,6 @@ constexpr double on_plane = 1e-10;
 constexpr double merge_tolerance = 1e-11;
 // Occluders × points beyond which none is tested for being an outer wall.
 constexpr double most_wall_tests = 2e8;
-
-// A convex polygon of constant radiance, at its place or (the sun) at infinity.
-struct AreaLight {
-    std::vector<Point> corners;  // counter-clockwise seen from where it shines to
-    Direction normal{0};         // to where it shines
-    mesh::Reach reach = mesh::Reach::finite;
-    Spectrum radiance;  // [W/m^2/sr]
-};
 
 struct Scratch {
     mesh::VisibleScratch visible;
@@ -81,47 +73,12 @@ Direction into(const mesh::BaseMesh& mesh, const Receiver& receiver) {
                                                                            : inside;
 }
 
-bool shines(const Spectrum& spectrum) {
-    return std::any_of(spectrum.begin(), spectrum.end(), [](double v) { return v != 0.0; });
-}
-
-// Power [W] per irradiance across the beam that enters through the hull into where light can be
-// [m^2].
-double beam_area(const Enclosure& enclosure, Direction direction) {
-    const auto& mesh = enclosure.mesh;
-    double sum = 0.0;
-    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
-        if (enclosure.solid(TetId(t))) continue;
-        for (int k = 0; k < 4; ++k) {
-            if (mesh.neighbours[t][k].valid()) continue;
-            std::array<Point, 4> p;
-            for (int c = 0; c < 4; ++c) p[c] = mesh.points[mesh.tets[t][c].value];
-            const Point &a = p[(k + 1) % 4], &b = p[(k + 2) % 4], &c = p[(k + 3) % 4];
-            Direction inward = 0.5 * glm::cross(b - a, c - a);
-            if (glm::dot(inward, p[k] - a) < 0.0) inward = -inward;
-            sum += std::max(0.0, glm::dot(inward, direction));
-        }
-    }
-    return sum;
-}
-
-Spectrum scaled(const Spectrum& spectrum, double factor) {
-    Spectrum result = spectrum;
-    for (double& v : result) v *= factor;
-    return result;
-}
-
 }  // namespace
 
 struct DirectLight::Data {
     const Enclosure& enclosure;
     DirectLightOptions options;
-    std::vector<AreaLight> areas;
-    std::vector<Sun> beams;  // without a diameter; directions are unit
-    std::vector<PointLight> points;
-    std::vector<SpotLight> spots;
-    std::vector<LightCone> cones;
-    std::vector<LightPower> powers;
+    ShiningLights lights;
     mesh::Occluders inner;  // what can come between two points that light reaches
     mesh::Occluders all;    // and between such a point and infinity
     std::optional<Occlusion> occlusion;
@@ -132,25 +89,17 @@ struct DirectLight::Data {
     Data(const Enclosure& enclosure, const DirectLightOptions& options)
         : enclosure(enclosure),
           options(options),
+          lights(shining_lights(enclosure, options.emitters, merge_tolerance)),
           depth(enclosure, merge_tolerance * diagonal(enclosure.mesh)),
           hull{enclosure.mesh.hull_min, enclosure.mesh.hull_max},
           tolerance(on_plane * diagonal(enclosure.mesh)) {
-        if (options.emitters) add_emitters();
-        for (const Light& light : enclosure.lights) add_light(light);
-        find_cones();
-        if (areas.empty() && beams.empty() && points.empty() && spots.empty()) return;
+        if (lights.empty()) return;
         const auto polygons =
             occluding_polygons(enclosure, merge_tolerance * diagonal(enclosure.mesh));
         all = mesh::Occluders(polygons, tolerance);
         inner = mesh::Occluders(inner_polygons(enclosure, polygons), tolerance);
-        if (!areas.empty()) occlusion.emplace(enclosure.mesh);
+        if (!lights.areas.empty()) occlusion.emplace(enclosure.mesh);
     }
-
-    void add_emitters();
-    void add_emitter(const SurfaceSide& side,
-                     const std::vector<std::array<mesh::VertexId, 3>>& triangles);
-    void add_light(const Light& light);
-    void find_cones();
 
     void gather(const Receiver& receiver, std::span<double> incident) const;
     void visit(const Receiver& receiver, double widest, const ArrivingPart& visit) const;
@@ -171,97 +120,19 @@ struct DirectLight::Data {
     // on_path(path, reach, strength, factor) for every light without a size (2), (3).
     template <class OnPath>
     void for_paths(const Receiver& receiver, OnPath&& on_path) const {
-        for (const Sun& sun : beams)
+        for (const Sun& sun : lights.beams)
             on_path(-sun.direction, mesh::Reach::infinite, sun.irradiance, 1.0);
-        for (const PointLight& light : points) {
+        for (const PointLight& light : lights.points) {
             const Direction path = light.position - receiver.x;
             on_path(path, mesh::Reach::finite, light.intensity, 1.0 / glm::dot(path, path));
         }
-        for (const SpotLight& light : spots) {
+        for (const SpotLight& light : lights.spots) {
             const Direction path = light.position - receiver.x;
             on_path(path, mesh::Reach::finite, light.intensity,
                     spot_share(light, -path) / glm::dot(path, path));
         }
     }
 };
-
-void DirectLight::Data::add_emitters() {
-    std::vector<std::vector<std::array<mesh::VertexId, 3>>> triangles(enclosure.sides.size());
-    for (std::size_t f = 0; f < enclosure.facet_sides.size(); ++f)
-        for (int k = 0; k < 2; ++k) {
-            const auto side = enclosure.facet_sides[f][k];
-            const auto& facet = enclosure.mesh.facets[f];
-            if (side == none || !shines(enclosure.sides[side])) continue;
-            if (!facet.tets[k].valid() || enclosure.solid(facet.tets[k])) continue;
-            auto corners = facet.corners;
-            if (k == 1) std::swap(corners[1], corners[2]);
-            triangles[side].push_back(corners);
-        }
-    for (std::size_t s = 0; s < triangles.size(); ++s)
-        if (!triangles[s].empty()) add_emitter(enclosure.sides[s], triangles[s]);
-}
-
-void DirectLight::Data::add_emitter(const SurfaceSide& side,
-                                    const std::vector<std::array<mesh::VertexId, 3>>& triangles) {
-    const auto& points = enclosure.mesh.points;
-    double area = 0.0;
-    for (const auto& t : triangles)
-        area += 0.5 * glm::length(glm::cross(points[t[1].value] - points[t[0].value],
-                                             points[t[2].value] - points[t[0].value]));
-    for (auto& polygon : mesh::convex_merge(points, triangles, mesh::Facing::kept,
-                                            merge_tolerance * diagonal(enclosure.mesh)))
-        areas.push_back(
-            {std::move(polygon.corners), polygon.normal, mesh::Reach::finite, side.emission});
-    powers.push_back({side.name, scaled(side.emission, pi * area)});
-}
-
-void DirectLight::Data::add_light(const Light& light) {
-    Spectrum power;
-    if (const auto* sun = std::get_if<Sun>(&light.source)) {
-        Sun beam = *sun;
-        beam.direction = glm::normalize(beam.direction);
-        power = scaled(beam.irradiance, beam_area(enclosure, beam.direction));
-        if (beam.angle > 0.0 && shines(beam.irradiance)) {
-            auto corners = sun_disc(beam);
-            const double across = projected_solid_angle(corners, -beam.direction);
-            areas.push_back({std::move(corners), beam.direction, mesh::Reach::infinite,
-                             scaled(beam.irradiance, 1.0 / across)});
-        } else if (shines(beam.irradiance)) {
-            beams.push_back(beam);
-        }
-    } else if (const auto* point = std::get_if<PointLight>(&light.source)) {
-        power = scaled(point->intensity, 4.0 * pi);
-        if (shines(point->intensity)) points.push_back(*point);
-    } else if (const auto* spot = std::get_if<SpotLight>(&light.source)) {
-        power = scaled(spot->intensity, spot_solid_angle(*spot));
-        if (shines(spot->intensity)) spots.push_back(*spot);
-    }
-    powers.push_back({light.name, std::move(power)});
-}
-
-void DirectLight::Data::find_cones() {
-    for (const AreaLight& area : areas) {
-        LightCone cone;
-        for (const Point& corner : area.corners)
-            cone.centre += corner / static_cast<double>(area.corners.size());
-        if (area.reach == mesh::Reach::infinite) {
-            cone.infinite = true;
-            cone.towards = glm::normalize(cone.centre);
-            for (const Point& corner : area.corners)
-                cone.half_angle =
-                    std::max(cone.half_angle,
-                             std::acos(std::clamp(glm::dot(glm::normalize(corner), cone.towards),
-                                                  -1.0, 1.0)));
-        } else {
-            for (const Point& corner : area.corners)
-                cone.radius = std::max(cone.radius, glm::distance(corner, cone.centre));
-        }
-        cones.push_back(cone);
-    }
-    for (const Sun& sun : beams) cones.push_back({true, Point(0), 0.0, -sun.direction, 0.0});
-    for (const PointLight& light : points) cones.push_back({false, light.position});
-    for (const SpotLight& light : spots) cones.push_back({false, light.position});
-}
 
 // Closed form of (1) for τ = 1 and unit radiance [-].
 double DirectLight::Data::weight(const Receiver& receiver, std::span<const Point> corners) const {
@@ -354,7 +225,7 @@ void DirectLight::Data::gather(const Receiver& receiver, std::span<double> incid
     std::fill(incident.begin(), incident.end(), 0.0);
     thread_local Scratch scratch;
     scratch.mean.resize(incident.size());
-    for (const AreaLight& light : areas) from_area(receiver, light, scratch, incident);
+    for (const AreaLight& light : lights.areas) from_area(receiver, light, scratch, incident);
     for_paths(receiver, [&](Direction path, mesh::Reach reach, const Spectrum& s, double factor) {
         from_path(receiver, path, reach, s, factor, incident);
     });
@@ -372,7 +243,7 @@ void DirectLight::Data::visit(const Receiver& receiver, double widest,
         for (double& v : part) v *= 4.0 * pi;
         visit(glm::normalize(towards), part);
     };
-    for (const AreaLight& light : areas) {
+    for (const AreaLight& light : lights.areas) {
         const auto visibility = look(receiver, light, scratch);
         if (visibility == mesh::Visibility::none) continue;
         const bool sampled = visibility == mesh::Visibility::too_many;
@@ -403,8 +274,7 @@ DirectLight::DirectLight(DirectLight&&) noexcept = default;
 DirectLight& DirectLight::operator=(DirectLight&&) noexcept = default;
 
 bool DirectLight::empty() const {
-    return data_->areas.empty() && data_->beams.empty() && data_->points.empty() &&
-           data_->spots.empty();
+    return data_->lights.empty();
 }
 
 void DirectLight::at_zone(Point x, TetId tet, std::span<double> incident) const {
@@ -432,7 +302,7 @@ void DirectLight::take_from(const PlaceMemory& known, const std::vector<mesh::Bo
 bool DirectLight::is_known(Point x, Direction normal, std::span<double> incident) const {
     const double* known = known_ ? known_->find(x, normal) : nullptr;
     if (!known) return false;
-    for (const LightCone& cone : data_->cones)
+    for (const LightCone& cone : data_->lights.cones)
         for (const mesh::Body& body : moved_)
             if (cone.passes(x, body)) return false;
     std::copy_n(known, incident.size(), incident.begin());
@@ -440,7 +310,7 @@ bool DirectLight::is_known(Point x, Direction normal, std::span<double> incident
 }
 
 const std::vector<LightPower>& DirectLight::powers() const {
-    return data_->powers;
+    return data_->lights.powers;
 }
 
 }  // namespace tyndall::radiosity

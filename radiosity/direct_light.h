@@ -28,6 +28,7 @@
 
 #include "radiosity/enclosure.h"
 #include "radiosity/place_memory.h"
+#include "radiosity/shining_lights.h"
 
 namespace tyndall::radiosity {
 
@@ -37,12 +38,6 @@ struct DirectLightOptions {
     double optical_step = 0.5;     // optical depth over which τ is integrated in one go [-]
     std::size_t shadow_rays = 64;  // where visibility is sampled
     bool emitters = true;          // emitting surfaces too; else only sun, point and spot lights
-};
-
-// What a light sends out; of a sun, what enters the enclosure through its hull.
-struct LightPower {
-    std::string name;  // of the surface side or the light
-    Spectrum power;    // [W]
 };
 
 // A part of the light that arrives at a point: the unit direction that it comes from, and ∫ I τ dω
