@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -226,14 +227,15 @@ void add_render_command(Shell& shell) {
     command.option("--time", options->time, "Wall time to spend [s] (likewise)").positive();
     command.option("--crop", options->crop, "These pixels of the picture: left,top,width,height");
     command.flag("--mesh", options->mesh, "Draw the edges of the elements that are seen");
-    command.option("--field", options->field,
-                   "What elements hold, in colours: radiance, direct, indirect, error, level, "
-                   "extinction, albedo");
+    command.option(
+        "--field", options->field,
+        fmt::format("What elements hold, in colours: {}", fmt::join(render::field_names(), ", ")));
     command.option("--slice", options->slice,
                    "Of the zones on a plane: x,y,z of a point and of the normal, or middle");
     command.option("--range", options->range, "Ends of the colours: low,high; else by the picture");
     command.option("--tone", options->tone,
-                   "Curve of a PNG: shoulder, filmic, reinhard or linear; else the scene's");
+                   fmt::format("Curve of a PNG: {}; else the scene's",
+                               fmt::join(render::tone_curve_names(), ", ")));
     command.option("--exposure", options->exposure, "Stops added to a PNG's exposure");
     command.option("--white", options->white, "Radiance shown as white in a PNG [W/m2/sr]")
         .positive();

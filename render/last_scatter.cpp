@@ -8,6 +8,7 @@
 #include "radiosity/segment.h"
 #include "render/arriving_light.h"
 #include "render/equiangular.h"
+#include "render/eye.h"
 #include "render/path_lights.h"
 #include "render/sampled_picture.h"
 #include "render/seen_solution.h"
@@ -52,7 +53,7 @@ class LastScatter {
           whole_(with_whole_extinction(e_)),
           bands_(e_.bands),
           eye_(camera.eye),
-          eye_tet_(mesh::locate(e_.mesh, camera.eye)),
+          eye_tet_(tet_of_eye(e_, camera)),
           seen_(solution, direct_tolerance),
           media_(e_),
           lights_(e_),
@@ -79,11 +80,7 @@ class LastScatter {
                 return cross(ray, tet, in, out, seen);
             });
         single(ray, points_(at.within, radiosity::hash_seed(at.seed, 1)), random, seen);
-        if (end.arrival == mesh::Arrival::left) seen_.leave(seen);
-        if (end.arrival != mesh::Arrival::struck) return;
-        seen.depth = entry.distance + end.distance;
-        const Point x = ray.origin + end.distance * ray.direction;
-        seen_.strike(s_.forest.leaf_at(mesh::root_patch(end.facet, end.side), x), x, end.tet, seen);
+        seen_.arrive(ray, end, entry.distance, seen);
     }
 
   private:

@@ -1,6 +1,5 @@
 #include "render/line_of_sight.h"
 
-#include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
@@ -9,8 +8,8 @@
 #include <optional>
 
 #include "mesh/entry.h"
-#include "mesh/input_error.h"
 #include "radiosity/point_set.h"
+#include "render/eye.h"
 #include "render/seen_solution.h"
 
 namespace tyndall::render {
@@ -26,13 +25,8 @@ class LineOfSight {
         : s_(solution),
           e_(*solution.enclosure),
           eye_(camera.eye),
-          eye_tet_(mesh::locate(e_.mesh, camera.eye)),
-          seen_(solution, direct_tolerance) {
-        if (eye_tet_.valid() && e_.solid(eye_tet_))
-            throw mesh::InputError(fmt::format(
-                "camera \"{}\" at [{}, {}, {}] stands inside a solid. Move its eye into the open.",
-                camera.name, camera.eye.x, camera.eye.y, camera.eye.z));
-    }
+          eye_tet_(tet_of_eye(e_, camera)),
+          seen_(solution, direct_tolerance) {}
 
     void look(mesh::Ray ray, Seen& seen) const {
         seen.clear(e_.bands);
@@ -48,11 +42,7 @@ class LineOfSight {
                                          return seen_.cross(ray, zone, s_in, s_out, seen);
                                      });
             });
-        if (end.arrival == mesh::Arrival::left) seen_.leave(seen);
-        if (end.arrival != mesh::Arrival::struck) return;
-        seen.depth = entry.distance + end.distance;
-        const Point x = ray.origin + end.distance * ray.direction;
-        seen_.strike(s_.forest.leaf_at(mesh::root_patch(end.facet, end.side), x), x, end.tet, seen);
+        seen_.arrive(ray, end, entry.distance, seen);
     }
 
   private:

@@ -13,6 +13,7 @@
 
 #include "mesh/input_error.h"
 #include "radiosity/item_buffer.h"
+#include "render/eye.h"
 #include "render/renderers.h"
 #include "render/seen_solution.h"
 
@@ -34,11 +35,7 @@ void refuse(const radiosity::Enclosure& enclosure, const Camera& camera) {
             "camera \"{}\": projected_zones draws perspective pictures without a lens. Choose "
             "another camera or --method line_of_sight.",
             camera.name));
-    const TetId eye = mesh::locate(enclosure.mesh, camera.eye);
-    if (eye.valid() && enclosure.solid(eye))
-        throw mesh::InputError(fmt::format(
-            "camera \"{}\" at [{}, {}, {}] stands inside a solid. Move its eye into the open.",
-            camera.name, camera.eye.x, camera.eye.y, camera.eye.z));
+    tet_of_eye(enclosure, camera);  // refuses solids
 }
 
 class Projector {
@@ -64,9 +61,10 @@ class Projector {
         }
         std::vector<PictureSums::Sums> sums(count * camera_.width);
         for (auto& sum : sums) picture_.begin(sum);
-        Seen seen;
-        buffer->look(face(first, count), [&](const ItemBuffer::Pixel& pixel) {
-            lay(pixel, first, count, seen);
+        Seen seen, zone;
+        const CubeFace shown = face(first, count);
+        buffer->look(shown, [&](const ItemBuffer::Pixel& pixel) {
+            lay(pixel, shown.direction(pixel.u, pixel.v), seen, zone);
             picture_.add(seen, sums[pixel.v / across_ * camera_.width + pixel.u / across_]);
         });
         for (std::size_t k = 0; k < sums.size(); ++k)
@@ -95,10 +93,10 @@ class Projector {
                 .nv = across_ * count};
     }
 
-    // The surface first, then what stands before it, from back to front.
-    void lay(const ItemBuffer::Pixel& pixel, std::size_t first, std::size_t count, Seen& seen) {
+    // The surface first, then what stands before it, from back to front. `d`: through the pixel, in
+    // the cube's frame; `zone`: memory for what one zone adds.
+    void lay(const ItemBuffer::Pixel& pixel, mesh::Direction d, Seen& seen, Seen& zone) const {
         const auto& e = *s_.enclosure;
-        const auto d = face(first, count).direction(pixel.u, pixel.v);
         const mesh::Ray ray{view_.eye,
                             glm::normalize(d.x * view_.right - d.y * view_.up + view_.forward)};
         seen.clear(e.bands);
@@ -111,7 +109,6 @@ class Projector {
         }
         for (const auto& f : std::views::reverse(pixel.zones)) {
             if (!(f.far > f.near)) continue;
-            Seen zone;
             zone.clear(e.bands);
             seen_.cross(ray, ZoneId(f.column), f.near * pixel.length, f.far * pixel.length, zone);
             for (std::size_t n = 0; n < seen.radiance.size(); ++n)

@@ -1,6 +1,5 @@
 #include "render/sampled_picture.h"
 
-#include <fmt/format.h>
 #include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 
@@ -11,8 +10,7 @@
 #include <mutex>
 #include <optional>
 
-#include "mesh/base_mesh.h"
-#include "mesh/input_error.h"
+#include "render/eye.h"
 
 namespace tyndall::render {
 namespace {
@@ -21,14 +19,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::size_t most_batches = std::size_t{1} << 20;
 constexpr std::size_t first_batches = 8;  // of a picture with a goal
-
-void refuse_solid(const radiosity::Enclosure& enclosure, const Camera& camera) {
-    const mesh::TetId eye = mesh::locate(enclosure.mesh, camera.eye);
-    if (eye.valid() && enclosure.solid(eye))
-        throw mesh::InputError(fmt::format(
-            "camera \"{}\" at [{}, {}, {}] stands inside a solid. Move its eye into the open.",
-            camera.name, camera.eye.x, camera.eye.y, camera.eye.z));
-}
 
 // Sums over the batches of every pixel.
 class Rounds {
@@ -229,7 +219,7 @@ class Rounds {
 Image sampled_picture(const radiosity::Enclosure& enclosure, const Camera& camera,
                       const RenderOptions& options, const SampledPictureOptions& how,
                       const Sampler& sampler, const radiosity::ProgressCallback& progress) {
-    refuse_solid(enclosure, camera);
+    tet_of_eye(enclosure, camera);  // refuses solids
     std::optional<tbb::global_control> threads;
     if (options.threads > 0)
         threads.emplace(tbb::global_control::max_allowed_parallelism, options.threads);

@@ -93,6 +93,15 @@ void SeenSolution::strike(PatchId leaf, Point x, mesh::TetId before, Seen& seen)
     }
 }
 
+void SeenSolution::arrive(const mesh::Ray& ray, const mesh::WalkEnd& end, double before,
+                          Seen& seen) const {
+    if (end.arrival == mesh::Arrival::left) leave(seen);
+    if (end.arrival != mesh::Arrival::struck) return;
+    seen.depth = before + end.distance;
+    const Point x = ray.origin + end.distance * ray.direction;
+    strike(s_.forest.leaf_at(mesh::root_patch(end.facet, end.side), x), x, end.tet, seen);
+}
+
 void SeenSolution::leave(Seen& seen) const {
     for (std::size_t b = 0; b < bands_; ++b)
         seen.radiance[emission * bands_ + b] += seen.transmittance[b] * e_.environment[b];

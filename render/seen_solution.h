@@ -28,6 +28,10 @@ class SeenSolution {
     // Adds what the leaf of a patch sends out at x; `before`: the tet on the ray's side of it.
     void strike(mesh::PatchId leaf, mesh::Point x, mesh::TetId before, Seen& seen) const;
 
+    // Adds what a walk along `ray` ends on, surface or outside, and sets the depth. `before`: how
+    // far the ray had come when it began [m].
+    void arrive(const mesh::Ray& ray, const mesh::WalkEnd& end, double before, Seen& seen) const;
+
     // Adds what comes in from outside.
     void leave(Seen& seen) const;
 
