@@ -133,7 +133,7 @@ std::vector<double> with_lamps_split_off(const Furnace& furnace, std::size_t ray
 
 }  // namespace
 
-TEST_CASE("Furnace: everything in rows is 1", "[furnace]") {
+TEST_CASE("Furnace: everything in rows is 1", "[furnace][long]") {
     for (const auto& path : scene_files()) {
         INFO(path.filename());
         const auto enclosure = std::make_shared<const Enclosure>(furnace(path).enclosure);

@@ -192,7 +192,7 @@ TEST_CASE("What cannot be a body is solved anew in every frame, and says why", "
           "what moves is solved anew in every frame, since it is drawn by \"two_pass\".");
 }
 
-TEST_CASE("Frames are kept, made in parts, and made anew for another scene", "[animate]") {
+TEST_CASE("Frames are kept, made in parts, and made anew for another scene", "[animate][long]") {
     const test::Workplace place("animate_parts");
     const std::string camera =
         track("camera.main.eye", "frames = [0, 3]\nvalues = [[1.9, 0.1, 1.2], [1.5, 0.1, 1]]");

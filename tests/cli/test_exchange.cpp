@@ -65,7 +65,7 @@ TEST_CASE("Squares by contour integration: all pairs, to 1e-12") {
     CHECK(area.at("outside,low+") == close(1.0 - 0.199824895698387 - 0.200043776075403));
 }
 
-TEST_CASE("Some pairs only: names of sides, surfaces, parts and media") {
+TEST_CASE("Some pairs only: names of sides, surfaces, parts and media", "[long]") {
     const test::Workplace place("exchange");
     place.write("cube.toml", foggy_cube);
     const std::string method = " --method reference_pairs --tolerance 1e-5 ";
@@ -141,7 +141,7 @@ TEST_CASE("Smoothed tables close and are reciprocal; the raw errors are said bes
     CHECK(json.at("smoothing").at("raw_reciprocity_error").get<double>() > 1e-4);
 }
 
-TEST_CASE("Ctrl-C ends an exchange with one message and no file") {
+TEST_CASE("Ctrl-C ends an exchange with one message and no file", "[long]") {
     const test::Workplace place("exchange");
     place.write("cube.toml", foggy_cube);
     // A tolerance that takes minutes.

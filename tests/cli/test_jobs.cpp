@@ -174,7 +174,7 @@ TEST_CASE("three bands have a column and a channel each") {
     CHECK(place.read("a.exr") == place.read("out/image.exr"));
 }
 
-TEST_CASE("an interrupt leaves a solution that can be used") {
+TEST_CASE("an interrupt leaves a solution that can be used", "[long]") {
     const JobsWorkplace place;
     // Enough to do for many seconds. --foreground: one signal, to the program alone; two would end
     // it.

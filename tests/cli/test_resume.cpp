@@ -115,7 +115,7 @@ struct Whole {
 
 }  // namespace
 
-TEST_CASE("a run that is killed goes on from its last finished pass, whenever that is") {
+TEST_CASE("a run that is killed goes on from its last finished pass, whenever that is", "[long]") {
     const Whole whole;
     std::size_t with_pass = 0;
     for (int k = 1; k <= 5; ++k) {
@@ -154,7 +154,7 @@ TEST_CASE("a run that is killed again and again comes to its end") {
     whole.check_resumed("out", Left(whole.place, "out"));
 }
 
-TEST_CASE("a run that is killed while it writes leaves no half file under its name") {
+TEST_CASE("a run that is killed while it writes leaves no half file under its name", "[long]") {
     const Whole whole;
     // The kernel kills what writes more than so many blocks of 512 bytes to one file: in the middle
     // of the first pass, and soon and late in the second. All files are written by one function.

@@ -23,7 +23,7 @@ struct SolverWorkplace : test::Workplace {
 
 }  // namespace
 
-TEST_CASE("Every solver gives one report") {
+TEST_CASE("Every solver gives one report", "[long]") {
     const SolverWorkplace place;
     const auto reference = place.solved("");
     CHECK(reference.at("solver").at("method") == "gmres");

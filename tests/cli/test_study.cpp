@@ -155,7 +155,7 @@ TEST_CASE("A study runs its matrix, measures, plots, and keeps what is done", "[
     }
 }
 
-TEST_CASE("A run that fails is recorded, and the others go on") {
+TEST_CASE("A run that fails is recorded, and the others go on", "[long]") {
     const StudyWorkplace place;
     // A medium outside the room shows only when the scene is meshed.
     place.write("scene.toml", [&] {
