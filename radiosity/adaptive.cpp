@@ -203,7 +203,8 @@ class Loop {
     RefineLimits limits(double share) const {
         const auto& base = enclosure_->mesh;
         return {static_cast<std::size_t>(share * static_cast<double>(options_.max_elements)),
-                options_.max_memory, 1e-4 * glm::distance(base.hull_min, base.hull_max)};
+                options_.max_memory, options_.max_passes,
+                1e-4 * glm::distance(base.hull_min, base.hull_max)};
     }
     double gather_detail() const {
         return detail_factor * std::sqrt(4.0 * M_PI / static_cast<double>(options_.gather_rays));

@@ -16,18 +16,11 @@ GatherScene::GatherScene(const Enclosure& enclosure, const Forest& forest, const
                          double detail)
     : enclosure_(enclosure),
       forest_(forest),
-      nodes_(forest.zone_count()),
+      zones_(forest),
       stride_(sources.bands < 3 ? sources.bands : (sources.bands + 3) / 4 * 4),
       patches_(sources.patch),
       detail_(static_cast<float>(detail)) {
-    for (std::size_t z = 0; z < nodes_.size(); ++z) {
-        const auto& node = forest[ZoneId(z)];
-        const auto& n = node.plane_normal;
-        nodes_[z] = {{float(n.x), float(n.y), float(n.z), float(node.plane_offset)},
-                     node.first_child.value,
-                     node.longest_edge};
-    }
-    sources_.resize(nodes_.size() * stride_ / 4 + 1);
+    sources_.resize(zones_.size() * stride_ / 4 + 1);
     Source* const first = sources_[0].of;
     for (std::size_t k = 0; k < sources.zone.size(); ++k) {
         const Affine& f = sources.zone[k];
@@ -51,8 +44,7 @@ class RadianceWalk {
         : s_(scene),
           bands_(radiance.size()),
           ray_(ray),
-          origin_{float(ray.origin.x), float(ray.origin.y), float(ray.origin.z)},
-          direction_{float(ray.direction.x), float(ray.direction.y), float(ray.direction.z)},
+          packed_(ray),
           radiance_(radiance),
           transmittance_(transmittance) {}
 
@@ -61,50 +53,21 @@ class RadianceWalk {
         const float* extinction = &s_.extinction_[tet.value * bands_];
         if (!(*std::max_element(extinction, extinction + bands_) > 0.0f)) return true;
         varying_ = s_.varying_.empty() ? nullptr : s_.varying_[tet.value];
-        struct Pending {
-            std::uint32_t zone;
-            float t_out;
-        };
-        std::array<Pending, 128> stack;
-        int depth = 0;
-        std::uint32_t zone = tet.value;
-        for (;;) {
-            const GatherScene::Node& node = s_.nodes_[zone];
-            __builtin_prefetch(s_.sources(zone));  // a leaf's are needed with it
-            if (node.child == none || depth == 128 || node.longest_edge < s_.detail_ * t_in) {
+        return s_.zones_.descend(
+            tet, packed_, t_in, t_out,
+            // A leaf's sources are needed with it.
+            [&](std::uint32_t zone) { __builtin_prefetch(s_.sources(zone)); },
+            [&](float longest_edge, float t) { return longest_edge < s_.detail_ * t; },
+            [&](std::uint32_t zone, bool is_leaf, float in, float out) {
                 // A linear fit may dip below zero in a leaf's corner; radiance does not. An
                 // ancestor's may dip where it stands for lit and dark leaves, and be right in the
                 // mean.
-                const float least =
-                    node.child == none ? 0.0f : -std::numeric_limits<float>::infinity();
-                if (t_out > t_in && !gain(zone, extinction, t_in, t_out, least)) return false;
-                if (depth == 0) return true;
-                t_in = std::max(t_in, t_out);
-                zone = stack[--depth].zone;
-                t_out = stack[depth].t_out;
-                continue;
-            }
-            const float slope = dot(node.plane, direction_);
-            const float start = dot(node.plane, origin_) + node.plane[3];
-            const float at_in = start + t_in * slope, at_out = start + t_out * slope;
-            if (at_in <= 0.0f && at_out <= 0.0f) {
-                zone = node.child;
-            } else if (at_in >= 0.0f && at_out >= 0.0f) {
-                zone = node.child + 1;
-            } else {
-                const float t = std::clamp(-start / slope, t_in, t_out);
-                stack[depth++] = {at_in < 0.0f ? node.child + 1 : node.child, t_out};
-                zone = at_in < 0.0f ? node.child : node.child + 1;
-                t_out = t;
-            }
-        }
+                const float least = is_leaf ? 0.0f : -std::numeric_limits<float>::infinity();
+                return gain(zone, extinction, in, out, least);
+            });
     }
 
   private:
-    static float dot(const float* a, const float* b) {
-        return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    }
-
     // `least`: below which J is not taken.
     bool gain(std::uint32_t zone, const float* extinction, float t_in, float t_out, float least) {
         float most = 0.0f;
@@ -113,8 +76,8 @@ class RadianceWalk {
         SegmentOfBands segment(ray_.origin, ray_.direction, t_in, t_out);
         for (std::size_t b = 0; b < bands_; ++b) {
             const GatherScene::Source& source = sources[b];
-            const float start = dot(source.gradient, origin_) + source.constant;
-            const float slope = dot(source.gradient, direction_);
+            const float start = dot(source.gradient, packed_.origin) + source.constant;
+            const float slope = dot(source.gradient, packed_.direction);
             if (varying_)
                 w = segment.weights(varying_[b]);
             else if (b == 0 || extinction[b] != extinction[b - 1])
@@ -132,7 +95,7 @@ class RadianceWalk {
     std::size_t bands_;
     const mesh::Ray& ray_;
     const ExtinctionBand* varying_ = nullptr;  // of the first band, in the tet that is crossed
-    float origin_[3], direction_[3];
+    PackedRay packed_;
     std::span<double> radiance_;
     std::span<float> transmittance_;
 };

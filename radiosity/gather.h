@@ -4,6 +4,7 @@
 #include <span>
 
 #include "radiosity/lit_patches.h"
+#include "radiosity/packed_zones.h"
 #include "radiosity/point_set.h"
 
 namespace tyndall::radiosity {
@@ -37,11 +38,6 @@ class GatherScene {
 
   private:
     friend class RadianceWalk;
-    struct Node {
-        float plane[4];       // normal and offset of an inner node's split
-        std::uint32_t child;  // first child; none: a leaf
-        float longest_edge;   // [m]
-    };
     struct Source {
         float gradient[3], constant;
     };
@@ -51,7 +47,7 @@ class GatherScene {
     const Source* sources(std::uint32_t zone) const { return sources_[0].of + zone * stride_; }
     const Enclosure& enclosure_;
     const Forest& forest_;
-    std::vector<Node> nodes_;  // of zones
+    PackedZones zones_;
     // Of zones, [node * stride + band]: those of a node lie in as few cache lines as can be.
     std::vector<Sources> sources_;
     std::size_t stride_;

@@ -111,7 +111,7 @@ struct SolveOptions {
     std::size_t max_elements = 150000;    // leaves, patches and zones together
     std::size_t max_memory = 2ull << 30;  // [byte]
     double max_time = 0.0;                // wall time; 0: no limit [s]
-    std::size_t max_passes = 12;          // of refinement
+    std::size_t max_passes = 100;         // rounds of refinement, each of which may halve a leaf
     std::size_t rays = 256;               // walked from each element for its row
     // theta: rays deposit in ancestors of size ≤ theta t sqrt(4 pi / rays); 0: in the elements
     // alone [-]

@@ -15,6 +15,7 @@ namespace tyndall::radiosity {
 struct RefineLimits {
     std::size_t max_elements = 300000;
     std::size_t max_memory = 2ull << 30;  // [byte]
+    std::size_t max_rounds = 100;         // a leaf is bisected once in each
     double smallest_edge = 0.0;  // an element whose longest edge is below is left alone [m]
     bool grow = true;            // else only leaves that are there already are descended to
 };

@@ -193,7 +193,7 @@ RefineResult DirectRefiner::refine(const Importance& importance, double goal,
     RefineResult result;
     std::vector<Candidate> candidates;
     double first = 0.0;
-    for (;;) {
+    for (std::size_t round = 0;; ++round) {
         update();
         result.squared_error = collect(importance, limits, asked, candidates);
         if (first == 0.0)
@@ -210,7 +210,8 @@ RefineResult DirectRefiner::refine(const Importance& importance, double goal,
         }
         if (result.squared_error <= goal) return result;
         const std::size_t memory = mesh_.memory() + (cuts_ ? cuts_->memory() : 0);
-        if (mesh_.leaf_count() >= limits.max_elements || memory > limits.max_memory) {
+        if (mesh_.leaf_count() >= limits.max_elements || memory > limits.max_memory ||
+            round == limits.max_rounds) {
             result.limited = true;
             return result;
         }

@@ -124,7 +124,7 @@ RefineResult IndirectRefiner::refine(std::vector<Node> frontier, IndirectSources
     Settled& settled = settled_of(Node());
     std::vector<Node> next, shown;
     double pieces = static_cast<double>(frontier.size());
-    while (!frontier.empty()) {
+    for (std::size_t round = 0; !frontier.empty(); ++round) {
         std::vector<SampleId> ids;
         collect(frontier, ids);
         const GatherScene scene(enclosure_, forest, sources.fields, sources.detail);
@@ -134,8 +134,9 @@ RefineResult IndirectRefiner::refine(std::vector<Node> frontier, IndirectSources
         result.stopped =
             progress && !progress({"indirect light", 1.0 - double(frontier.size()) / pieces,
                                    mesh_.leaf_count(), 0.0});
-        result.limited = limits.grow && (mesh_.leaf_count() >= limits.max_elements ||
-                                         mesh_.memory() > limits.max_memory);
+        result.limited =
+            limits.grow && (mesh_.leaf_count() >= limits.max_elements ||
+                            mesh_.memory() > limits.max_memory || round == limits.max_rounds);
         const bool descend = !result.stopped && !result.limited;
         const double threshold = goal / pieces;
         next.clear();

@@ -122,11 +122,10 @@ Report solve_report(const Enclosure& enclosure, const CoarseSolution& coarse,
     warn_of_noise(goal, options, report);
     warn_of_smoothing(report);
     if (ending.limited && std::max(ending.refined_to, goal.elements) > options.error)
-        report.warnings.push_back(
-            fmt::format("refinement ended at a limit (max_elements = {}, max_memory = {} bytes) "
-                        "before the error "
-                        "goal of {}.",
-                        options.max_elements, options.max_memory, options.error));
+        report.warnings.push_back(fmt::format(
+            "refinement ended at a limit (max_elements = {}, max_memory = {} bytes, "
+            "max_passes = {}) before the error goal of {}.",
+            options.max_elements, options.max_memory, options.max_passes, options.error));
     if (!report.solver.converged)
         report.warnings.push_back(
             fmt::format("the solver ({}) did not converge: residual {:.2e} after {} iterations, "

@@ -5,90 +5,210 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <optional>
 
 #include "mesh/entry.h"
-#include "radiosity/point_set.h"
+#include "radiosity/final_gather.h"
 #include "render/eye.h"
 #include "render/seen_solution.h"
+#include "render/sight_zones.h"
 
 namespace tyndall::render {
 namespace {
 
 using mesh::Point;
-using mesh::ZoneId;
 using radiosity::none;
+
+constexpr double darkest_share = 0.1;  // of the surfaces' mean radiance: contrast is against
 
 class LineOfSight {
   public:
-    LineOfSight(const radiosity::Solution& solution, const Camera& camera, double direct_tolerance)
-        : s_(solution),
-          e_(*solution.enclosure),
+    LineOfSight(const radiosity::Solution& solution, const Camera& camera,
+                const RenderOptions& options)
+        : e_(*solution.enclosure),
           eye_(camera.eye),
           eye_tet_(tet_of_eye(e_, camera)),
-          seen_(solution, direct_tolerance) {}
+          zones_(solution),
+          seen_(solution, options.direct_tolerance) {
+        if (options.final_gather > 0) gather_.emplace(solution);
+    }
 
-    void look(mesh::Ray ray, Seen& seen) const {
+    // What the ray sees; `points`, scrambled by `seed`: of the final gather, if there is one.
+    void look(mesh::Ray ray, const radiosity::PointSet& points, std::uint64_t seed,
+              Seen& seen) const {
         seen.clear(e_.bands);
         const mesh::Entry entry = mesh::entry_near(e_.mesh, ray, eye_, eye_tet_);
         if (!entry.tet.valid()) return seen_.leave(seen);
         if (e_.solid(entry.tet)) return;
         ray.origin += entry.distance * ray.direction;
+        const SightRay sight(ray);
         const auto end =
             mesh::walk(e_.mesh, ray, {entry.tet}, [&](mesh::TetId tet, double t_in, double t_out) {
                 if (e_.solid(tet) || e_.medium_of(tet) == none) return true;
-                return mesh::descend(s_.forest, mesh::root_zone(tet), ray, t_in, t_out,
-                                     mesh::at_leaves, [&](ZoneId zone, double s_in, double s_out) {
-                                         return seen_.cross(ray, zone, s_in, s_out, seen);
-                                     });
+                return zones_.cross(sight, tet, t_in, t_out, seen);
             });
-        seen_.arrive(ray, end, entry.distance, seen);
+        if (!gather_) return seen_.arrive(ray, end, entry.distance, seen);
+        seen_.arrive(ray, end, entry.distance, seen,
+                     [&](mesh::PatchId leaf, Point x, std::span<double> incident) {
+                         gather_->on_surface(leaf, x, points, seed, incident);
+                     });
     }
 
+    std::size_t bands() const { return e_.bands; }
+    // Radiance below which differences do not count more [W/m^2/sr].
+    double dark() const { return darkest_share * seen_.typical_radiance(); }
+
   private:
-    const radiosity::Solution& s_;
     const radiosity::Enclosure& e_;
     Point eye_;
     mesh::TetId eye_tet_;
+    SightZones zones_;
     SeenSolution seen_;
+    std::optional<radiosity::FinalGather> gather_;
+};
+
+double radiance(const Seen& seen, std::size_t band, std::size_t bands) {
+    double sum = 0.0;
+    for (std::size_t part = 0; part < solved_parts; ++part)
+        sum += seen.radiance[part * bands + band];
+    return sum;
+}
+
+// Radiance in the middle of every pixel, and of those around the picture: crops are the same then.
+class Middles {
+  public:
+    Middles(const Camera& camera, std::size_t bands)
+        : row_((camera.width + 2) * bands), bands_(bands), values_(row_ * (camera.height + 2)) {}
+
+    void set(std::size_t x, std::size_t y, const Seen& seen) {  // both from 0, around the picture
+        float* to = at(x, y);
+        for (std::size_t b = 0; b < bands_; ++b)
+            to[b] = static_cast<float>(radiance(seen, b, bands_));
+    }
+
+    // Whether radiance is linear across a pixel of the picture, so that the middle is the mean: it
+    // differs from the mean of any two opposite neighbours by no more than half of `contrast` of
+    // the brightest of them, or of `dark`.
+    bool even(std::size_t x, std::size_t y, double contrast, double dark) const {
+        const float* here = at(x + 1, y + 1);
+        constexpr std::ptrdiff_t opposite[4][2]{{1, 0}, {0, 1}, {1, 1}, {1, -1}};
+        for (const auto& [i, j] : opposite) {
+            const float* one = at(x + 1 + i, y + 1 + j);
+            const float* other = at(x + 1 - i, y + 1 - j);
+            for (std::size_t b = 0; b < bands_; ++b)
+                if (std::abs(one[b] + other[b] - 2.0f * here[b]) >
+                    contrast * std::max<double>(std::max({here[b], one[b], other[b]}), dark))
+                    return false;
+        }
+        return true;
+    }
+
+  private:
+    float* at(std::size_t x, std::size_t y) { return &values_[y * row_ + x * bands_]; }
+    const float* at(std::size_t x, std::size_t y) const { return &values_[y * row_ + x * bands_]; }
+
+    std::size_t row_, bands_;
+    std::vector<float> values_;
+};
+
+// Makes the picture row by row: the middles of all pixels, then all samples where they differ.
+class Painter {
+  public:
+    Painter(const LineOfSight& line, const Camera& camera, const RenderOptions& options,
+            const radiosity::ProgressCallback& progress)
+        : line_(line),
+          camera_(camera),
+          options_(options),
+          progress_(progress),
+          ray_(camera),
+          points_(std::max<std::size_t>(options.samples, 1)),
+          gathered_((options.final_gather + points_.size() - 1) / points_.size()),
+          gathered_once_(options.final_gather),
+          picture_(camera, line.bands()) {}
+
+    Image paint() {
+        // The middle of a pixel says nothing of what a lens blurs.
+        if (options_.contrast > 0.0 && !camera_.lens && points_.size() > 1) {
+            middles_.emplace(camera_, line_.bands());
+            rows_ = 2 * camera_.height + 2;
+            in_rows(camera_.height + 2, [&](std::size_t y) { paint_middles(y); });
+        } else {
+            rows_ = camera_.height;
+        }
+        in_rows(camera_.height, [&](std::size_t y) { paint_samples(y); });
+        return picture_.take();
+    }
+
+  private:
+    template <class Paint>
+    void in_rows(std::size_t count, Paint&& paint) {
+        tbb::parallel_for(std::size_t(0), count, [&](std::size_t y) {
+            if (stop_) return;
+            paint(y);
+            const std::size_t done = ++done_;
+            if (progress_ && !progress_({"picture", double(done) / double(rows_), 0, 0.0}))
+                stop_ = true;
+        });
+    }
+
+    // Of the row above the picture, those in it, and the one below.
+    void paint_middles(std::size_t y) {
+        Seen seen;
+        PictureSums::Sums sums;
+        for (std::size_t x = 0; x < camera_.width + 2; ++x) {
+            const auto seed = radiosity::hash_seed(options_.seed, y * (camera_.width + 2) + x);
+            line_.look(ray_(double(x) - 0.5, double(y) - 0.5), gathered_once_, seed, seen);
+            middles_->set(x, y, seen);
+            if (x < 1 || y < 1 || x > camera_.width || y > camera_.height) continue;
+            picture_.begin(sums);
+            picture_.add(seen, sums);
+            picture_.end(sums, (y - 1) * camera_.width + x - 1, 1);
+        }
+    }
+
+    void paint_samples(std::size_t y) {
+        Seen seen;
+        PictureSums::Sums sums;
+        for (std::size_t x = 0; x < camera_.width; ++x) {
+            if (middles_ && middles_->even(x, y, options_.contrast, line_.dark())) continue;
+            const std::size_t pixel = y * camera_.width + x;
+            picture_.begin(sums);
+            // A scrambled (0,2)-net in every pixel: stratified in x and in y, so that edges along
+            // the axes are as smooth as slanted ones.
+            const auto seed = radiosity::hash_seed(options_.seed, pixel);
+            for (std::size_t k = 0; k < points_.size(); ++k) {
+                const auto u = points_(k, seed);
+                line_.look(ray_(double(x) + u[0], double(y) + u[1], {u[3], u[4]}), gathered_,
+                           radiosity::hash_seed(seed, k), seen);
+                picture_.add(seen, sums);
+            }
+            picture_.end(sums, pixel, points_.size());
+        }
+    }
+
+    const LineOfSight& line_;
+    const Camera& camera_;
+    const RenderOptions& options_;
+    const radiosity::ProgressCallback& progress_;
+    CameraRays ray_;
+    radiosity::PointSet points_, gathered_, gathered_once_;  // of a pixel; of a hit
+    PictureSums picture_;
+    std::optional<Middles> middles_;
+    std::size_t rows_ = 0;
+    std::atomic<std::size_t> done_ = 0;
+    std::atomic<bool> stop_ = false;
 };
 
 }  // namespace
 
 Image line_of_sight(const radiosity::Solution& solution, const Camera& camera,
                     const RenderOptions& options, const radiosity::ProgressCallback& progress) {
-    const LineOfSight line(solution, camera, options.direct_tolerance);
-    PictureSums picture(camera, solution.enclosure->bands);
-    // A scrambled (0,2)-net in every pixel: stratified in x and in y, so that edges along the axes
-    // are as smooth as slanted ones.
-    const radiosity::PointSet points(std::max<std::size_t>(options.samples, 1));
     std::optional<tbb::global_control> threads;
     if (options.threads > 0)
         threads.emplace(tbb::global_control::max_allowed_parallelism, options.threads);
-    std::atomic<std::size_t> rows_done = 0;
-    std::atomic<bool> stop = false;
-
-    const CameraRays camera_ray(camera);
-    tbb::parallel_for(std::size_t(0), camera.height, [&](std::size_t y) {
-        if (stop) return;
-        Seen seen;
-        PictureSums::Sums sums;
-        for (std::size_t x = 0; x < camera.width; ++x) {
-            const std::size_t pixel = y * camera.width + x;
-            picture.begin(sums);
-            const auto seed = radiosity::hash_seed(options.seed, pixel);
-            for (std::size_t k = 0; k < points.size(); ++k) {
-                const auto u = points(k, seed);
-                line.look(camera_ray(double(x) + u[0], double(y) + u[1], {u[3], u[4]}), seen);
-                picture.add(seen, sums);
-            }
-            picture.end(sums, pixel, points.size());
-        }
-        const std::size_t done = ++rows_done;
-        if (progress && !progress({"picture", double(done) / double(camera.height), 0, 0.0}))
-            stop = true;
-    });
-    return picture.take();
+    const LineOfSight line(solution, camera, options);
+    return Painter(line, camera, options, progress).paint();
 }
 
 }  // namespace tyndall::render

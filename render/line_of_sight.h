@@ -14,10 +14,14 @@ namespace tyndall::render {
 //   multiple_scattering and transmittance (of the medium in front of what is seen), depth [m]
 //   (infinity: nothing hit).
 // Equation: I = Σ_segments T ∫ κ e^{−κs} J ds + T I_surface, J and I linear in each leaf. (4)
-// Anti-aliased: `samples` rays a pixel, a scrambled (0,2)-net, box filter of one pixel.
+// Anti-aliased: `samples` rays a pixel, a scrambled (0,2)-net, box filter of one pixel; one through
+//   its middle where radiance is linear from there to the neighbours' (`contrast`).
+// Indirect light of surfaces: the patches' linear functions, or gathered right there
+//   (`final_gather`, final_gather.h).
 // A camera outside the hull looks in through it. Radiances are never negative.
 // Errors: mesh::InputError for a camera inside a solid.
-// Cost: leaves crossed × pixels × samples. Same bits at any thread count.
+// Cost: leaves crossed × rays, and with them × final_gather / samples. Same bits at any thread
+// count.
 Image line_of_sight(const radiosity::Solution& solution, const Camera& camera,
                     const RenderOptions& options = {},
                     const radiosity::ProgressCallback& progress = {});

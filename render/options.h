@@ -11,6 +11,12 @@ namespace tyndall::render {
 struct RenderOptions {
     std::string method = "line_of_sight";
     std::size_t samples = 16;  // rays a pixel, a scrambled (0,2)-net; a power of two is best
+    // line_of_sight: where radiance departs from linear, from the middle of a pixel to those of its
+    // neighbours, by no more than this share of it, the middle's one ray is enough; 0: never [-].
+    double contrast = 0.01;
+    // line_of_sight: rays a pixel, spread over its samples, that gather indirect light right where
+    // a surface is seen; 0: the patches' own linear functions are shown.
+    std::size_t final_gather = 0;
     // Direct light on a surface is computed anew in closed form at what a ray hits, wherever the
     // patch's own linear function may be off by more than this share of the surfaces' mean
     // radiance.

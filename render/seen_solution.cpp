@@ -16,8 +16,7 @@ using radiosity::none;
 
 namespace {
 
-// Mean radiance of the surfaces, a measure of the picture's before there is one [W/m^2/sr].
-double typical_radiance(const radiosity::Solution& s) {
+double mean_of_surfaces(const radiosity::Solution& s) {
     double sum = 0.0, area = 0.0;
     for (std::size_t p = 0; p < s.forest.patch_count(); ++p) {
         const PatchId patch(p);
@@ -40,7 +39,8 @@ SeenSolution::SeenSolution(const radiosity::Solution& solution, double direct_to
       e_(*solution.enclosure),
       bands_(e_.bands),
       light_(e_, {.emitters = s_.direct_light == radiosity::DirectLightMode::closed_form}),
-      threshold_(direct_tolerance * typical_radiance(solution)) {}
+      typical_(mean_of_surfaces(solution)),
+      threshold_(direct_tolerance * typical_) {}
 
 bool SeenSolution::cross(const mesh::Ray& ray, ZoneId zone, double t_in, double t_out,
                          Seen& seen) const {
@@ -71,7 +71,8 @@ bool SeenSolution::cross(const mesh::Ray& ray, ZoneId zone, double t_in, double 
     return most > 1e-9;
 }
 
-void SeenSolution::strike(PatchId leaf, Point x, mesh::TetId before, Seen& seen) const {
+void SeenSolution::strike(PatchId leaf, Point x, mesh::TetId before, Seen& seen,
+                          const Indirect& indirect) const {
     const auto side = radiosity::side_of(e_, s_.forest, leaf);
     if (side == none) return;
     const auto& optics = e_.sides[side];
@@ -84,22 +85,29 @@ void SeenSolution::strike(PatchId leaf, Point x, mesh::TetId before, Seen& seen)
         for (std::size_t b = 0; b < bands_; ++b)
             direct[b] = std::max(0.0, s_.direct.at(leaf, b).at(x));
     }
+    thread_local std::vector<double> other;
+    other.resize(bands_);
+    if (indirect && std::ranges::any_of(optics.reflectance, [](double r) { return r > 0.0; })) {
+        indirect(leaf, x, other);
+    } else {
+        for (std::size_t b = 0; b < bands_; ++b)
+            other[b] = std::max(0.0, s_.indirect.at(leaf, b).at(x));
+    }
     for (std::size_t b = 0; b < bands_; ++b) {
         const double t = seen.transmittance[b], rho = optics.reflectance[b];
         seen.radiance[emission * bands_ + b] += t * radiosity::emission_of(s_, leaf, b);
         seen.radiance[surfaces_direct * bands_ + b] += t * rho * direct[b];
-        seen.radiance[surfaces_indirect * bands_ + b] +=
-            t * rho * std::max(0.0, s_.indirect.at(leaf, b).at(x));
+        seen.radiance[surfaces_indirect * bands_ + b] += t * rho * other[b];
     }
 }
 
-void SeenSolution::arrive(const mesh::Ray& ray, const mesh::WalkEnd& end, double before,
-                          Seen& seen) const {
+void SeenSolution::arrive(const mesh::Ray& ray, const mesh::WalkEnd& end, double before, Seen& seen,
+                          const Indirect& indirect) const {
     if (end.arrival == mesh::Arrival::left) leave(seen);
     if (end.arrival != mesh::Arrival::struck) return;
     seen.depth = before + end.distance;
     const Point x = ray.origin + end.distance * ray.direction;
-    strike(s_.forest.leaf_at(mesh::root_patch(end.facet, end.side), x), x, end.tet, seen);
+    strike(s_.forest.leaf_at(mesh::root_patch(end.facet, end.side), x), x, end.tet, seen, indirect);
 }
 
 void SeenSolution::leave(Seen& seen) const {

@@ -2,6 +2,9 @@
 // of rays, with a layer for each part.
 #pragma once
 
+#include <functional>
+#include <span>
+
 #include "mesh/walk.h"
 #include "radiosity/direct_light.h"
 #include "radiosity/solution.h"
@@ -25,21 +28,30 @@ class SeenSolution {
     bool cross(const mesh::Ray& ray, mesh::ZoneId zone, double t_in, double t_out,
                Seen& seen) const;
 
+    // H^I at x of a leaf's patch, one value a band, for the leaf's own [W/m^2/sr].
+    using Indirect = std::function<void(mesh::PatchId leaf, mesh::Point x, std::span<double>)>;
+
     // Adds what the leaf of a patch sends out at x; `before`: the tet on the ray's side of it.
-    void strike(mesh::PatchId leaf, mesh::Point x, mesh::TetId before, Seen& seen) const;
+    void strike(mesh::PatchId leaf, mesh::Point x, mesh::TetId before, Seen& seen,
+                const Indirect& indirect = {}) const;
 
     // Adds what a walk along `ray` ends on, surface or outside, and sets the depth. `before`: how
     // far the ray had come when it began [m].
-    void arrive(const mesh::Ray& ray, const mesh::WalkEnd& end, double before, Seen& seen) const;
+    void arrive(const mesh::Ray& ray, const mesh::WalkEnd& end, double before, Seen& seen,
+                const Indirect& indirect = {}) const;
 
     // Adds what comes in from outside.
     void leave(Seen& seen) const;
+
+    // Mean radiance of the surfaces, a measure of the picture's before there is one [W/m^2/sr].
+    double typical_radiance() const { return typical_; }
 
   private:
     const radiosity::Solution& s_;
     const radiosity::Enclosure& e_;
     std::size_t bands_;
     radiosity::DirectLight light_;
+    double typical_;
     double threshold_;  // error of a patch's direct light above which it is computed anew
 };
 

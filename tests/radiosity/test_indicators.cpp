@@ -1,6 +1,7 @@
 // Every indicator bisects where it should, and nowhere else.
 #include "radiosity/indicators.h"
 
+#include <algorithm>
 #include <cstring>
 
 #include "mesh/input_error.h"
@@ -69,6 +70,28 @@ TEST_CASE("The default indicators are direct, shadow_boundary and indirect", "[i
     CHECK(same_bits(as_ever.direct.patch, named.direct.patch));
     CHECK(same_bits(as_ever.indirect.zone, named.indirect.zone));
     CHECK(same_bits(as_ever.indirect.patch, named.indirect.patch));
+}
+
+TEST_CASE("Refinement ends after max_passes rounds, and says so", "[indicators]") {
+    const auto enclosure = std::make_shared<const Enclosure>(lit_room());
+    SolveOptions options;
+    options.error = 0.01;
+    options.start = Start::base;
+    options.rays = options.gather_rays = 8;
+    options.indicators = {"direct"};  // rounds of direct light alone
+    std::vector<std::size_t> counts;
+    for (const std::size_t rounds : {0, 1, 2}) {
+        options.max_passes = rounds;
+        const Solution solution = solve_adaptively(enclosure, options);
+        counts.push_back(leaves(solution));
+        CHECK(std::any_of(solution.report.warnings.begin(), solution.report.warnings.end(),
+                          [&](const std::string& w) {
+                              return w.find("max_passes = " + std::to_string(rounds)) != w.npos;
+                          }));
+    }
+    CHECK(counts[0] == leaves(solve(*enclosure, {})));  // the mesh it began with
+    CHECK(counts[1] > counts[0]);
+    CHECK(counts[2] > counts[1]);
 }
 
 TEST_CASE("A caller's indicator bisects where it says", "[indicators]") {

@@ -1,0 +1,58 @@
+#include "radiosity/final_gather.h"
+
+#include "mesh/body.h"
+
+namespace tyndall::radiosity {
+namespace {
+
+// Zones that are no longer than this share of their distance may stand for their leaves: as long
+// as the spacing of some hundred rays [-].
+constexpr double detail = 0.2;
+
+// What patches reflect of direct light.
+Fields lit_fields(const Solution& s) {
+    Fields lit;
+    lit.resize(s.forest, s.enclosure->bands);
+    for (std::size_t p = 0; p < s.forest.patch_count(); ++p) {
+        const PatchId patch(p);
+        if (!s.forest.is_leaf(patch)) continue;
+        for (std::size_t b = 0; b < lit.bands; ++b) {
+            const double a = scatter_of(s, patch, b);
+            const Affine& direct = s.direct.at(patch, b);
+            lit.at(patch, b) = {a * direct.gradient, a * direct.constant};
+        }
+    }
+    return lit;
+}
+
+// All that is sent out besides, and besides direct emission.
+Fields other_fields(const Solution& s, const Fields& lit) {
+    Fields rest = reflected_sources(s);
+    for (std::size_t k = 0; k < rest.patch.size(); ++k) {
+        rest.patch[k].gradient -= lit.patch[k].gradient;
+        rest.patch[k].constant -= lit.patch[k].constant;
+    }
+    return rest;
+}
+
+}  // namespace
+
+FinalGather::FinalGather(const Solution& solution)
+    : s_(solution),
+      lit_(*solution.enclosure, solution.forest, lit_fields(solution)),
+      rest_(*solution.enclosure, solution.forest, other_fields(solution, lit_fields(solution)),
+            detail) {}
+
+void FinalGather::on_surface(PatchId leaf, Point x, const PointSet& points, std::uint64_t seed,
+                             std::span<double> incident) const {
+    PatchId root = leaf;
+    while (s_.forest[root].parent.valid()) root = s_.forest[root].parent;
+    thread_local std::vector<Gathered> gathered;
+    gathered.resize(incident.size());
+    const GatherPoint point{x, mesh::start_before(s_.enclosure->mesh, root.value, x),
+                            normal_of(s_.forest, leaf)};
+    gather(rest_, &lit_, point, points, seed, gathered);
+    for (std::size_t b = 0; b < incident.size(); ++b) incident[b] = gathered[b].mean;
+}
+
+}  // namespace tyndall::radiosity

@@ -1,0 +1,85 @@
+#include "render/sight_zones.h"
+
+#include <algorithm>
+
+namespace tyndall::render {
+
+using mesh::TetId;
+using mesh::ZoneId;
+using radiosity::Affine;
+using radiosity::dot;
+
+namespace {
+
+// Of each band: a H^A and a H^I, gradient and constant, and what is emitted.
+constexpr std::size_t numbers = 9;
+constexpr std::size_t line_length = 16;
+
+void pack(const Affine& f, double scale, float* to) {
+    for (int k = 0; k < 3; ++k) to[k] = float(scale * f.gradient[k]);
+    to[3] = float(scale * f.constant);
+}
+
+}  // namespace
+
+SightZones::SightZones(const radiosity::Solution& s)
+    : e_(*s.enclosure),
+      bands_(e_.bands),
+      stride_((numbers * bands_ + line_length - 1) / line_length),
+      zones_(s.forest),
+      lines_(s.forest.zone_count() * stride_) {
+    for (std::size_t z = 0; z < s.forest.zone_count(); ++z) {
+        const ZoneId zone(z);
+        if (!s.forest.is_leaf(zone)) continue;
+        float* of_band = lines_[z * stride_].values;
+        for (std::size_t b = 0; b < bands_; ++b, of_band += numbers) {
+            const double a = radiosity::scatter_of(s, zone, b);
+            pack(s.direct.at(zone, b), a, of_band);
+            pack(s.indirect.at(zone, b), a, of_band + 4);
+            of_band[8] = float(radiosity::emission_of(s, zone, b));
+        }
+    }
+}
+
+bool SightZones::cross(const SightRay& ray, TetId tet, double t_in, double t_out,
+                       Seen& seen) const {
+    return zones_.descend(
+        tet, ray.packed, float(t_in), float(t_out),
+        [&](std::uint32_t zone) { __builtin_prefetch(leaf(zone)); },
+        [](float, float) { return false; },
+        [&](std::uint32_t zone, bool, float in, float out) {
+            return gain(ray, zone, tet, in, out, seen);
+        });
+}
+
+bool SightZones::gain(const SightRay& ray, std::uint32_t zone, TetId tet, float t_in, float t_out,
+                      Seen& seen) const {
+    const auto& optics = e_.media[e_.medium_of(tet)];
+    double most = 0.0;
+    radiosity::SegmentWeights w{};
+    radiosity::SegmentOfBands segment(ray.ray.origin, ray.ray.direction, t_in, t_out);
+    const float* of_band = leaf(zone);
+    for (std::size_t b = 0; b < bands_; ++b, of_band += numbers) {
+        if (!optics.varying.empty())
+            w = segment.weights(optics.varying[b]);
+        else if (b == 0 || optics.extinction[b] != optics.extinction[b - 1])
+            w = radiosity::segment_weights(optics.extinction[b] * double(t_out - t_in));
+        double& transmittance = seen.transmittance[b];
+        const double front = transmittance * w.front, back = transmittance * w.back;
+        // A linear fit may dip below zero in a leaf's corner; radiance does not.
+        const auto linear = [&](Part part, const float* f) {
+            const float start = dot(f, ray.packed.origin) + f[3];
+            const float slope = dot(f, ray.packed.direction);
+            seen.radiance[part * bands_ + b] += front * std::max(0.0f, start + t_in * slope) +
+                                                back * std::max(0.0f, start + t_out * slope);
+        };
+        seen.radiance[emission * bands_ + b] += (front + back) * of_band[8];
+        linear(single_scattering, of_band);
+        linear(multiple_scattering, of_band + 4);
+        transmittance *= w.transmittance;
+        most = std::max(most, transmittance);
+    }
+    return most > 1e-9;
+}
+
+}  // namespace tyndall::render

@@ -1,0 +1,46 @@
+// What a solution's media send towards an eye, packed for walks along many rays.
+#pragma once
+
+#include <vector>
+
+#include "radiosity/packed_zones.h"
+#include "radiosity/solution.h"
+#include "render/picture_parts.h"
+
+namespace tyndall::render {
+
+// A ray in both precisions.
+struct SightRay {
+    mesh::Ray ray;
+    radiosity::PackedRay packed;
+
+    explicit SightRay(const mesh::Ray& r) : ray(r), packed(r) {}
+};
+
+class SightZones {
+  public:
+    // Keeps a reference to the solution's enclosure. Cost: O(nodes); memory: 24 bytes a node and 36
+    // a node and band, in whole cache lines.
+    explicit SightZones(const radiosity::Solution& solution);
+
+    // Purpose: adds what a ray gains between two distances in a base tet of a medium, and takes the
+    //   tet's transmittance. False where so little is left that the rest does not show.
+    // Equation: ∫ T κ J ds of every leaf that is crossed, J linear in it, in closed form (4); as
+    //   SeenSolution::cross, in single precision: 1e-5 of a leaf's J.
+    bool cross(const SightRay& ray, mesh::TetId tet, double t_in, double t_out, Seen& seen) const;
+
+  private:
+    struct alignas(64) Line {
+        float values[16];
+    };
+    const float* leaf(std::uint32_t zone) const { return lines_[zone * stride_].values; }
+    bool gain(const SightRay& ray, std::uint32_t zone, mesh::TetId tet, float t_in, float t_out,
+              Seen& seen) const;
+
+    const radiosity::Enclosure& e_;
+    std::size_t bands_, stride_;  // lines a node
+    radiosity::PackedZones zones_;
+    std::vector<Line> lines_;
+};
+
+}  // namespace tyndall::render

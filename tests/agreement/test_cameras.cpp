@@ -1,0 +1,91 @@
+// Whatever a camera looks at, no renderer shows what is no radiance.
+#include "mesh/input_error.h"
+#include "radiosity/adaptive.h"
+#include "render/renderers.h"
+#include "support/catch.h"
+#include "support/path_scenes.h"
+
+using namespace tyndall;
+
+namespace {
+
+// Fog that scatters forwards in an open box under a dim sky: a wall is missing, a solid block and a
+// lamp are in it, the sun shines in.
+const radiosity::Solution& open_box() {
+    static const radiosity::Solution solution = [] {
+        radiosity::Scene scene;
+        scene.materials = {test::material(0.6), test::material(0.0, 10.0)};
+        std::vector<mesh::Face> walls = mesh::room({0, 0, 0}, {3, 2, 2});
+        std::erase_if(walls, [](const mesh::Face& face) { return face.name == "x1"; });
+        test::add_surfaces(scene, "room", walls, 0);
+        test::add_surfaces(scene, "lamp", mesh::rectangle({0.5, 0.7, 2}, {0, 0.6, 0}, {0.6, 0, 0}),
+                           1);
+        test::add_surfaces(scene, "block", mesh::box({1.6, 0.6, 0}, {2.4, 1.4, 0.7}), 0);
+        scene.media = {test::medium(0.3, 0.9)};
+        scene.media[0].asymmetry = 0.5;
+        scene.lights = {{"sun", radiosity::Sun{{-1, 0.2, -0.5}, {2.0}, 0.01}, ""}};
+        scene.environment = {0.05};
+        return radiosity::solve_adaptively(
+            test::enclosed(scene),
+            {.error = 0.2, .max_elements = 3000, .rays = 16, .gather_rays = 16});
+    }();
+    return solution;
+}
+
+render::Camera camera_at(mesh::Point eye, mesh::Point target) {
+    render::Camera camera;
+    camera.eye = eye;
+    camera.target = target;
+    camera.fov_x = 1.2;
+    camera.width = 12;
+    camera.height = 9;
+    return camera;
+}
+
+// Values of a layer that cannot be.
+std::size_t impossible(const render::Layer& layer) {
+    return static_cast<std::size_t>(std::ranges::count_if(layer.values, [&](float v) {
+        return !(v >= 0.0f) || (layer.name != "depth" && !std::isfinite(v));
+    }));
+}
+
+}  // namespace
+
+TEST_CASE("No picture has what is no radiance, wherever the camera stands", "[picture]") {
+    const std::pair<const char*, render::Camera> cameras[]{
+        {"inside", camera_at({0.3, 0.3, 1.0}, {2.0, 1.0, 0.4})},
+        {"on a wall", camera_at({0.0, 1.0, 1.0}, {3.0, 1.0, 0.5})},
+        {"in a corner", camera_at({0.0, 0.0, 0.0}, {3.0, 2.0, 2.0})},
+        {"along a wall", camera_at({0.0, 0.0, 1.0}, {3.0, 0.0, 1.0})},
+        {"on the lamp", camera_at({0.8, 1.0, 2.0}, {2.0, 1.0, 0.7})},
+        {"on the opening's edge", camera_at({3.0, 0.0, 0.0}, {0.0, 1.0, 1.0})},
+        {"outside, in front of the opening", camera_at({6.0, 1.0, 1.0}, {0.0, 1.0, 1.0})},
+        {"outside, behind a wall", camera_at({-3.0, 1.0, 1.0}, {0.0, 1.0, 1.0})},
+        {"outside, looking away", camera_at({6.0, 1.0, 1.0}, {9.0, 1.0, 1.0})},
+        {"a kilometre away", camera_at({1000.0, 1.0, 1.0}, {0.0, 1.0, 1.0})},
+    };
+    for (const auto& renderer : render::renderers())
+        for (const auto& [where, camera] : cameras) {
+            INFO(renderer.name << ", " << where);
+            const auto image =
+                renderer.render(open_box(), camera, {.samples = 4}, radiosity::ProgressCallback());
+            for (const auto& layer : image.layers) {
+                INFO(layer.name);
+                CHECK(impossible(layer) == 0);
+            }
+            if (std::string_view(where) == "outside, looking away")
+                for (const float v : image.find("beauty")->values)
+                    CHECK(v == Approx(0.05));  // the sky
+            if (std::string_view(where) == "inside") CHECK(test::over(image, "beauty").mean > 0.01);
+        }
+}
+
+TEST_CASE("An eye in a solid is refused by every renderer", "[picture]") {
+    const auto camera = camera_at({2.0, 1.0, 0.3}, {0.0, 0.0, 1.0});
+    for (const auto& renderer : render::renderers()) {
+        INFO(renderer.name);
+        CHECK_THROWS_AS(
+            renderer.render(open_box(), camera, {.samples = 1}, radiosity::ProgressCallback()),
+            mesh::InputError);
+    }
+}
