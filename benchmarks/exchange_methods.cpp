@@ -1,14 +1,15 @@
 // Accuracy against cost of every exchange method, by kind of pair and extinction: the figures of
 // docs/studies/exchange.md.
 //
-//   exchange_methods [FOLDER [METHOD]]
+//   exchange_methods [FOLDER [METHOD|all [PAIR EXTINCTION]]]
 //
 // Pairs: two unit squares that touch, are near, far, and have a screen between them; a unit cube
 // and its own face; a cube and itself, one that touches it and one that is far. Each in a medium of
 // extinction 0, 0.1, 1 and 5 /m. Each method with its settings from coarse to fine, four seeds for
 // those that draw numbers: root mean square of the relative errors against reference_pairs at 1e-8
 // and median of the CPU seconds. Writes FOLDER/exchange.csv and a plot for each pair and
-// extinction; with a METHOD only FOLDER/METHOD.csv, of that one.
+// extinction; with a METHOD only FOLDER/METHOD.csv, of that one; with a PAIR its plot, and its
+// lines in FOLDER/PAIR_EXTINCTION.csv.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -197,12 +198,17 @@ std::string slug(std::string text) {
 
 int main(int count, char** words) {
     const std::filesystem::path folder = count > 1 ? words[1] : "exchange";
-    const std::string only = count > 2 ? words[2] : "";
+    const std::string only = count > 2 && std::string(words[2]) != "all" ? words[2] : "";
+    const std::string only_pair = count > 4 ? words[3] : "";
+    const double only_extinction = count > 4 ? std::stod(words[4]) : -1.0;
     std::filesystem::create_directories(folder);
     std::string csv = "pair,extinction,method,setting,cpu_seconds,relative_error\n";
     for (const Pair& pair : pairs())
         for (const double extinction : {0.0, 0.1, 1.0, 5.0}) {
             if (extinction == 0.0 && !pair.vacuum) continue;
+            const std::string name = fmt::format("{}_{:g}", slug(pair.name), extinction);
+            if (!only_pair.empty() && (pair.name != only_pair || extinction != only_extinction))
+                continue;
             const Enclosure enclosure = filled(pair, extinction);
             const double exact =
                 area(enclosure, pair, "reference_pairs", {.settings = {.tolerance = 1e-8}});
@@ -225,10 +231,9 @@ int main(int count, char** words) {
                 }
                 if (!drawn.points.empty()) plot.curves.push_back(drawn);
             }
-            if (only.empty())
-                mesh::write_file(folder / fmt::format("{}_{:g}.svg", slug(pair.name), extinction),
-                                 cli::svg_of(plot));
-            mesh::write_file(folder / ((only.empty() ? "exchange" : only) + ".csv"), csv);
+            if (only.empty()) mesh::write_file(folder / (name + ".svg"), cli::svg_of(plot));
+            const std::string table = !only.empty() ? only : only_pair.empty() ? "exchange" : name;
+            mesh::write_file(folder / (table + ".csv"), csv);
             fmt::print("{}, extinction {}: {:.10g} m2\n", pair.name, extinction, exact);
             std::fflush(stdout);
         }
