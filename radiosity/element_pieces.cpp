@@ -167,8 +167,7 @@ void ElementPieces::add_outside(const Enclosure& enclosure) {
     }
 }
 
-void ElementPieces::finish_element() {
-    const auto pieces = std::span(pieces_).subspan(starts_.back());
+Ball ball_of(std::span<const Piece> pieces) {
     Ball ball;
     double whole = 0.0;
     for (const Piece& piece : pieces) {
@@ -179,7 +178,12 @@ void ElementPieces::finish_element() {
     for (const Piece& piece : pieces)
         for (std::size_t k = 0; k < piece.size(); ++k)
             ball.radius = std::max(ball.radius, glm::distance(piece.corners[k], ball.centre));
-    balls_.push_back(ball);
+    return ball;
+}
+
+void ElementPieces::finish_element() {
+    const auto pieces = std::span(pieces_).subspan(starts_.back());
+    balls_.push_back(ball_of(pieces));
     starts_.push_back(pieces_.size());
 }
 

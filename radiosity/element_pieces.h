@@ -53,6 +53,13 @@ std::vector<Piece> faces_of(const Piece& piece);
 // The same of pieces together: without the faces that two tetrahedra share.
 std::vector<Piece> boundary_of(std::span<const Piece> pieces);
 
+// Around the centroid of pieces.
+struct Ball {
+    Point centre{0};
+    double radius = 0.0;
+};
+Ball ball_of(std::span<const Piece> pieces);
+
 // The pieces of all elements, and of outside.
 class ElementPieces {
   public:
@@ -67,11 +74,6 @@ class ElementPieces {
     double gap(std::size_t a, std::size_t b) const;
 
   private:
-    struct Ball {
-        Point centre{0};
-        double radius = 0.0;
-    };
-
     void add_patch(const Discretization& discretization, PatchId patch);
     void add_zone(const Discretization& discretization, ZoneId zone);
     void add_outside(const Enclosure& enclosure);

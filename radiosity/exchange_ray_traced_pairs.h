@@ -13,8 +13,8 @@ namespace tyndall::radiosity {
 //   the last bit; rows close as well as their entries are right.
 // Settings: `tolerance`, the relative error that a pair's subdivision aims at. It ends early after
 //   PairIntegral::most_rays: where elements touch, errors of 1e-4 to 3e-4 are left then (unit
-//   cubes), 7e-4 in optically thick ones; where edges of shadows decide, some 3e-3, as in what
-//   open scenes send outside.
+//   cubes, as one tetrahedron or clusters), 7e-4 in optically thick ones; where edges of shadows
+//   decide, some 3e-3, as in what open scenes send outside.
 //   `interaction_radius`: pairs are left out whose elements, by the balls around them, are farther
 //   apart, and the row's other entries but outside's are scaled so that the row closes: what is far
 //   is taken to shine as what is near does in the mean. Outside is always taken in. The error of H

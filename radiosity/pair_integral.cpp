@@ -147,7 +147,11 @@ void PairIntegral::add_faces(std::span<const Piece> from, std::span<const Piece>
 
 bool PairIntegral::uniform(std::span<const Piece> a, std::span<const Piece> b, bool same) const {
     if (a.empty() || b.empty() || !b[0].solid || a.size() * b.size() == 1) return false;
-    if (!same && a[0].solid) return false;  // far apart, faces cancel: member by member
+    if (!same && a[0].solid) {
+        const Ball one = ball_of(a), other = ball_of(b);
+        // Far apart, faces cancel: member by member.
+        if (glm::distance(one.centre, other.centre) > one.radius + other.radius) return false;
+    }
     for (const Piece& one : a)
         for (const Piece& other : b) {
             if (one.extinction != other.extinction || straddles(one, other)) return false;

@@ -23,8 +23,8 @@ namespace tyndall::radiosity {
 //     S_jV_k = Σ_g ∬ (1 − e^{−u}) cosθ_j (n_g·ω) / (π s²) dA_j dA_g:
 //   the divergence theorem, applied to both zones; the terms u − 1 that it leaves free are so
 //   chosen that nothing is singular where the zones touch, or are one.
-//   A cluster of tetrahedra with itself or a patch is taken so as a whole, over its own surface, if
-//   all its members' centres see each other.
+//   A cluster of tetrahedra with itself, with a patch or with another cluster near by is taken so
+//   as a whole, over its own surface, if all members' centres see each other.
 // Subdivision: of all pairs of pieces the one with the largest estimated error has a piece
 //   bisected, until the estimates add up to `tolerance` of the whole, or the rays run out.
 //
