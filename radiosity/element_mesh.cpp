@@ -20,6 +20,19 @@ constexpr double step_aside = 1e-5;
 // Planes a vertex can be marked with; it would take many shadows that end in one point.
 constexpr std::size_t most_marks = 30;
 
+// The number of the edge between two corners: (0, 1), (0, 2), …
+template <int corners>
+int edge_of(int i, int j) {
+    const auto [low, high] = std::minmax(i, j);
+    return low * (2 * corners - low - 1) / 2 + high - low - 1;
+}
+
+template <class Known, class Node>
+Known& known_of(std::vector<Known>& known, Node node, std::size_t nodes) {
+    if (node.value >= known.size()) known.resize(nodes);
+    return known[node.value];
+}
+
 }  // namespace
 
 ElementMesh::ElementMesh(const Enclosure& enclosure)
@@ -144,31 +157,37 @@ template SampleId ElementMesh::lit_middle_of(ZoneId, int, int);
 template SampleId ElementMesh::lit_middle_of(PatchId, int, int);
 
 std::array<SampleId, 4> ElementMesh::corners(ZoneId zone) {
+    auto& known = known_of(of_zone_, zone, forest_.zone_count()).at_corners;
+    if (known[0].valid()) return known;
     const auto vertices = forest_[zone].corners;
     const TetId tet = forest_.base_tet(zone);
-    std::array<SampleId, 4> result;
-    for (int k = 0; k < 4; ++k) result[k] = samples_.in_zone(vertices[k], tet);
-    return result;
+    for (int k = 0; k < 4; ++k) known[k] = samples_.in_zone(vertices[k], tet);
+    return known;
 }
 
 std::array<SampleId, 3> ElementMesh::corners(PatchId patch) {
+    auto& known = known_of(of_patch_, patch, forest_.patch_count()).at_corners;
+    if (known[0].valid()) return known;
     const auto vertices = forest_[patch].corners;
     const auto side = forest_.base_facet_side(patch);
-    std::array<SampleId, 3> result;
-    for (int k = 0; k < 3; ++k) result[k] = samples_.on_patch(vertices[k], side);
-    return result;
+    for (int k = 0; k < 3; ++k) known[k] = samples_.on_patch(vertices[k], side);
+    return known;
 }
 
 SampleId ElementMesh::middle(ZoneId zone, int i, int j) {
+    auto& known = known_of(of_zone_, zone, forest_.zone_count()).in_middles[edge_of<4>(i, j)];
+    if (known.valid()) return known;
     const auto& vertices = forest_[zone].corners;
     const VertexId vertex = forest_.vertex_on_edge(vertices[i], vertices[j]);
-    return samples_.in_zone(vertex, forest_.base_tet(zone));
+    return known = samples_.in_zone(vertex, forest_.base_tet(zone));
 }
 
 SampleId ElementMesh::middle(PatchId patch, int i, int j) {
+    auto& known = known_of(of_patch_, patch, forest_.patch_count()).in_middles[edge_of<3>(i, j)];
+    if (known.valid()) return known;
     const auto& vertices = forest_[patch].corners;
     const VertexId vertex = forest_.vertex_on_edge(vertices[i], vertices[j]);
-    return samples_.on_patch(vertex, forest_.base_facet_side(patch));
+    return known = samples_.on_patch(vertex, forest_.base_facet_side(patch));
 }
 
 void ElementMesh::refine_to(const InitialSize& size) {

@@ -43,10 +43,18 @@ class ElementMesh {
     }
     // Samples of direct light at the corners, and at the middle of the edge between corners i and
     // j: on the element's own side of marked planes.
-    std::array<SampleId, 4> lit_corners(ZoneId zone) { return lit_corners_of<4>(zone); }
-    std::array<SampleId, 3> lit_corners(PatchId patch) { return lit_corners_of<3>(patch); }
-    SampleId lit_middle(ZoneId zone, int i, int j) { return lit_middle_of(zone, i, j); }
-    SampleId lit_middle(PatchId patch, int i, int j) { return lit_middle_of(patch, i, j); }
+    std::array<SampleId, 4> lit_corners(ZoneId zone) {
+        return marks_.empty() ? corners(zone) : lit_corners_of<4>(zone);
+    }
+    std::array<SampleId, 3> lit_corners(PatchId patch) {
+        return marks_.empty() ? corners(patch) : lit_corners_of<3>(patch);
+    }
+    SampleId lit_middle(ZoneId zone, int i, int j) {
+        return marks_.empty() ? middle(zone, i, j) : lit_middle_of(zone, i, j);
+    }
+    SampleId lit_middle(PatchId patch, int i, int j) {
+        return marks_.empty() ? middle(patch, i, j) : lit_middle_of(patch, i, j);
+    }
 
     // Samples of all other light, which does not jump.
     std::array<SampleId, 4> corners(ZoneId zone);
@@ -65,7 +73,10 @@ class ElementMesh {
     // Errors: mesh::InputError if it did not.
     void replay(const Forest& saved);
 
-    std::size_t memory() const { return forest_.memory() + samples_.memory(); }
+    std::size_t memory() const {
+        return forest_.memory() + samples_.memory() + of_zone_.size() * sizeof(NodeSamples<4>) +
+               of_patch_.size() * sizeof(NodeSamples<3>);
+    }
 
   private:
     using Marks = std::vector<std::uint32_t>;  // plane indices, in the order they were set
@@ -75,6 +86,13 @@ class ElementMesh {
     SampleId lit_middle_of(Node node, int i, int j);
     template <class Node>
     SampleId lit(Node node, VertexId vertex, const Marks& marks);
+    // Of a node, once it has been asked for: at its corners, then in the middle of its edges, (0,
+    // 1) first; for other light than that of marked planes.
+    template <std::size_t corners>
+    struct NodeSamples {
+        std::array<SampleId, corners> at_corners{};
+        std::array<SampleId, corners*(corners - 1) / 2> in_middles{};
+    };
     SampleId sample(ZoneId zone, VertexId vertex, std::uint32_t sides, Point x);
     SampleId sample(PatchId patch, VertexId vertex, std::uint32_t sides, Point x);
 
@@ -84,6 +102,8 @@ class ElementMesh {
     SampleSet samples_;
     std::vector<ZoneId> zones_;
     std::vector<PatchId> patches_;
+    std::vector<NodeSamples<4>> of_zone_;   // by node
+    std::vector<NodeSamples<3>> of_patch_;  // by node
     std::size_t zone_leaves_ = 0, patch_leaves_ = 0;
     std::unordered_map<std::uint32_t, Marks> marks_;              // of vertices
     std::unordered_map<std::uint32_t, ShadowPlane> mark_planes_;  // by plane index

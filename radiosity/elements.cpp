@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "mesh/input_error.h"
+#include "radiosity/leaves_in_order.h"
 #include "radiosity/open_places.h"
 
 namespace tyndall::radiosity {
@@ -161,9 +162,9 @@ void each_leaf(const Forest& forest, Node root, Visit&& visit) {
     }
 }
 
-}  // namespace
-
-Elements elements_of_leaves(const Enclosure& enclosure, const Forest& forest) {
+// `open`: of a node, the share that counts.
+template <class Open>
+Elements of_leaves(const Enclosure& enclosure, const Forest& forest, Open&& open) {
     Elements e = without_elements(enclosure, forest);
     const OpticalTags tags(enclosure);
     for (std::size_t p = 0; p < tags.facet_sides.size(); ++p) {
@@ -171,8 +172,7 @@ Elements elements_of_leaves(const Enclosure& enclosure, const Forest& forest) {
         if (side == none) continue;
         each_leaf(forest, PatchId(p), [&](PatchId patch) {
             e.of_patch[patch.value] = static_cast<std::uint32_t>(e.size());
-            append(e, enclosure.sides[side], patch,
-                   forest.area(patch) * open(enclosure, forest, patch));
+            append(e, enclosure.sides[side], patch, forest.area(patch) * open(patch));
         });
     }
     for (std::size_t t = 0; t < tags.tets.size(); ++t) {
@@ -182,10 +182,20 @@ Elements elements_of_leaves(const Enclosure& enclosure, const Forest& forest) {
             e.of_zone[zone.value] = static_cast<std::uint32_t>(e.size());
             append(e, enclosure.media[medium], zone,
                    mean_extinction(enclosure, forest, {&zone.value, 1}),
-                   forest.volume(zone) * open(enclosure, forest, zone));
+                   forest.volume(zone) * open(zone));
         });
     }
     return e;
+}
+
+}  // namespace
+
+Elements elements_of_leaves(const Enclosure& enclosure, const Forest& forest) {
+    return of_leaves(enclosure, forest, [&](auto node) { return open(enclosure, forest, node); });
+}
+
+Elements leaves_in_order(const Enclosure& enclosure, const Forest& forest) {
+    return of_leaves(enclosure, forest, [](auto) { return 1.0; });
 }
 
 namespace {

@@ -6,6 +6,7 @@
 
 #include "mesh/file_bytes.h"
 #include "mesh/input_error.h"
+#include "radiosity/leaves_in_order.h"
 #include "radiosity/report_json.h"
 #include "radiosity/solution_parts.h"
 
@@ -268,7 +269,7 @@ Forest read_forest(const Hdf5Reader& file, const mesh::BaseMesh& base) {
 void write_solution(const std::filesystem::path& path, const Solution& solution,
                     const std::string& attachments) {
     const Enclosure& enclosure = *solution.enclosure;
-    const Elements elements = elements_of_leaves(enclosure, solution.forest);
+    const Elements elements = leaves_in_order(enclosure, solution.forest);
     Hdf5Writer file;
     write_grid(file, solution);
     file.group(root);
@@ -300,7 +301,7 @@ SolutionFile read_solution(const std::filesystem::path& path) {
     Solution& s = result.solution;
     s.enclosure = std::make_shared<const Enclosure>(read_enclosure(file));
     s.forest = read_forest(file, s.enclosure->mesh);
-    const Elements elements = elements_of_leaves(*s.enclosure, s.forest);
+    const Elements elements = leaves_in_order(*s.enclosure, s.forest);
     if (file.attribute(root, "leaf_order") != leaf_order(elements))
         file.fail("another version of this program, which numbers leaves in another way, wrote it");
     s.direct = read_fields(file, root + "/direct", s.forest, elements);

@@ -3,6 +3,7 @@
 #include <array>
 #include <numbers>
 
+#include "radiosity/leaves_in_order.h"
 #include "radiosity/solution_parts.h"
 #include "radiosity/temperatures.h"
 
@@ -35,7 +36,7 @@ class Grid {
   public:
     explicit Grid(const Solution& solution)
         : s_(solution), e_(*solution.enclosure), bands_(e_.bands) {
-        const Elements elements = elements_of_leaves(e_, s_.forest);
+        const Elements elements = leaves_in_order(e_, s_.forest);
         for (const PatchId patch : elements.patches) add(patch);
         for (const ZoneId zone : elements.zones) add(zone);
     }

@@ -30,12 +30,14 @@ class LineOfSight {
           eye_(camera.eye),
           eye_tet_(tet_of_eye(e_, camera)),
           zones_(solution),
-          seen_(solution, options.direct_tolerance) {
+          seen_(solution, options.direct_tolerance),
+          scattered_(solution, seen_.light(), options.scattering_tolerance) {
         if (options.final_gather > 0) gather_.emplace(solution);
     }
 
     // What the ray sees; `points`, scrambled by `seed`: of the final gather, if there is one.
-    void look(mesh::Ray ray, const radiosity::PointSet& points, std::uint64_t seed,
+    // `anew`: as SightZones::cross has it.
+    void look(mesh::Ray ray, const radiosity::PointSet& points, std::uint64_t seed, double anew,
               Seen& seen) const {
         seen.clear(e_.bands);
         const mesh::Entry entry = mesh::entry_near(e_.mesh, ray, eye_, eye_tet_);
@@ -46,7 +48,7 @@ class LineOfSight {
         const auto end =
             mesh::walk(e_.mesh, ray, {entry.tet}, [&](mesh::TetId tet, double t_in, double t_out) {
                 if (e_.solid(tet) || e_.medium_of(tet) == none) return true;
-                return zones_.cross(sight, tet, t_in, t_out, seen);
+                return zones_.cross(sight, tet, t_in, t_out, scattered_, anew, seen);
             });
         if (!gather_) return seen_.arrive(ray, end, entry.distance, seen);
         seen_.arrive(ray, end, entry.distance, seen,
@@ -65,6 +67,7 @@ class LineOfSight {
     mesh::TetId eye_tet_;
     SightZones zones_;
     SeenSolution seen_;
+    SingleScattering scattered_;
     std::optional<radiosity::FinalGather> gather_;
 };
 
@@ -158,7 +161,7 @@ class Painter {
         PictureSums::Sums sums;
         for (std::size_t x = 0; x < camera_.width + 2; ++x) {
             const auto seed = radiosity::hash_seed(options_.seed, y * (camera_.width + 2) + x);
-            line_.look(ray_(double(x) - 0.5, double(y) - 0.5), gathered_once_, seed, seen);
+            line_.look(ray_(double(x) - 0.5, double(y) - 0.5), gathered_once_, seed, 1.0, seen);
             middles_->set(x, y, seen);
             if (x < 1 || y < 1 || x > camera_.width || y > camera_.height) continue;
             picture_.begin(sums);
@@ -168,6 +171,10 @@ class Painter {
     }
 
     void paint_samples(std::size_t y) {
+        // What elements leave out of single scattering varies little within a pixel: the first
+        // points of a net, which are one themselves, tell it for all.
+        const std::size_t anew = (points_.size() + 3) / 4;
+        const double each = static_cast<double>(points_.size()) / static_cast<double>(anew);
         Seen seen;
         PictureSums::Sums sums;
         for (std::size_t x = 0; x < camera_.width; ++x) {
@@ -180,7 +187,7 @@ class Painter {
             for (std::size_t k = 0; k < points_.size(); ++k) {
                 const auto u = points_(k, seed);
                 line_.look(ray_(double(x) + u[0], double(y) + u[1], {u[3], u[4]}), gathered_,
-                           radiosity::hash_seed(seed, k), seen);
+                           radiosity::hash_seed(seed, k), k < anew ? each : 0.0, seen);
                 picture_.add(seen, sums);
             }
             picture_.end(sums, pixel, points_.size());

@@ -21,6 +21,10 @@ struct RenderOptions {
     // patch's own linear function may be off by more than this share of the surfaces' mean
     // radiance.
     double direct_tolerance = 0.002;  // [-]
+    // What a leaf of a medium scatters once is looked at on every fourth ray (line_of_sight),
+    // wherever the leaf's own linear function may be off on that ray by more than this share of
+    // the mean radiance of all elements; infinite: nowhere, pictures show what elements hold.
+    double scattering_tolerance = 0.002;  // [-]
     // Of methods that draw lots (last_scatter, two_pass, path_traced): go on, whatever `samples`
     // says, until the picture's estimated error in blocks of 4 × 4 pixels, over its mean, is below
     // this; 0: no goal [-].

@@ -145,7 +145,8 @@ void PictureSums::end(const Sums& sums, std::size_t pixel, std::size_t rays) {
     for (std::size_t b = 0; b < bands_; ++b) {
         double beauty = 0.0;
         for (std::size_t part = 0; part <= solved_parts; ++part) {
-            const double value = share * sums.values[part * bands_ + b];
+            // What some rays put right for all may be a little more than they have.
+            const double value = std::max(0.0, share * sums.values[part * bands_ + b]);
             image_.layers[1 + part].values[pixel * bands_ + b] = static_cast<float>(value);
             if (part < solved_parts) beauty += value;
         }

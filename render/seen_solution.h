@@ -46,6 +46,9 @@ class SeenSolution {
     // Mean radiance of the surfaces, a measure of the picture's before there is one [W/m^2/sr].
     double typical_radiance() const { return typical_; }
 
+    // That which surfaces are lit by where it is computed anew.
+    const radiosity::DirectLight& light() const { return light_; }
+
   private:
     const radiosity::Solution& s_;
     const radiosity::Enclosure& e_;

@@ -42,18 +42,22 @@ SightZones::SightZones(const radiosity::Solution& s)
 }
 
 bool SightZones::cross(const SightRay& ray, TetId tet, double t_in, double t_out,
-                       Seen& seen) const {
+                       const SingleScattering& scattered, double anew, Seen& seen) const {
+    thread_local std::vector<double> along;
+    along.resize(bands_);
     return zones_.descend(
         tet, ray.packed, float(t_in), float(t_out),
         [&](std::uint32_t zone) { __builtin_prefetch(leaf(zone)); },
         [](float, float) { return false; },
         [&](std::uint32_t zone, bool, float in, float out) {
-            return gain(ray, zone, tet, in, out, seen);
+            const bool asked = anew > 0.0 && scattered.along(ray.ray, ZoneId(zone), in, out,
+                                                             seen.transmittance, along);
+            return gain(ray, zone, tet, in, out, asked ? along.data() : nullptr, anew, seen);
         });
 }
 
 bool SightZones::gain(const SightRay& ray, std::uint32_t zone, TetId tet, float t_in, float t_out,
-                      Seen& seen) const {
+                      const double* scattered, double anew, Seen& seen) const {
     const auto& optics = e_.media[e_.medium_of(tet)];
     double most = 0.0;
     radiosity::SegmentWeights w{};
@@ -70,11 +74,16 @@ bool SightZones::gain(const SightRay& ray, std::uint32_t zone, TetId tet, float 
         const auto linear = [&](Part part, const float* f) {
             const float start = dot(f, ray.packed.origin) + f[3];
             const float slope = dot(f, ray.packed.direction);
-            seen.radiance[part * bands_ + b] += front * std::max(0.0f, start + t_in * slope) +
-                                                back * std::max(0.0f, start + t_out * slope);
+            const double gained = front * std::max(0.0f, start + t_in * slope) +
+                                  back * std::max(0.0f, start + t_out * slope);
+            seen.radiance[part * bands_ + b] += gained;
+            return gained;
         };
         seen.radiance[emission * bands_ + b] += (front + back) * of_band[8];
-        linear(single_scattering, of_band);
+        const double held = linear(single_scattering, of_band);
+        if (scattered)  // (59)
+            seen.radiance[single_scattering * bands_ + b] +=
+                anew * (transmittance * optics.albedo[b] * scattered[b] - held);
         linear(multiple_scattering, of_band + 4);
         transmittance *= w.transmittance;
         most = std::max(most, transmittance);

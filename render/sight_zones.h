@@ -6,6 +6,7 @@
 #include "radiosity/packed_zones.h"
 #include "radiosity/solution.h"
 #include "render/picture_parts.h"
+#include "render/single_scattering.h"
 
 namespace tyndall::render {
 
@@ -27,15 +28,19 @@ class SightZones {
     //   tet's transmittance. False where so little is left that the rest does not show.
     // Equation: ∫ T κ J ds of every leaf that is crossed, J linear in it, in closed form (4); as
     //   SeenSolution::cross, in single precision: 1e-5 of a leaf's J.
-    bool cross(const SightRay& ray, mesh::TetId tet, double t_in, double t_out, Seen& seen) const;
+    // `scattered`: looks at single scattering anew where it would show, and what a leaf's direct
+    //   light leaves out is added `anew` times: by one ray for several; 0: not at all [-].
+    bool cross(const SightRay& ray, mesh::TetId tet, double t_in, double t_out,
+               const SingleScattering& scattered, double anew, Seen& seen) const;
 
   private:
     struct alignas(64) Line {
         float values[16];
     };
     const float* leaf(std::uint32_t zone) const { return lines_[zone * stride_].values; }
+    // `scattered`: null, or ∫ κ T H^A dt over the leaf, one value a band.
     bool gain(const SightRay& ray, std::uint32_t zone, mesh::TetId tet, float t_in, float t_out,
-              Seen& seen) const;
+              const double* scattered, double anew, Seen& seen) const;
 
     const radiosity::Enclosure& e_;
     std::size_t bands_, stride_;  // lines a node

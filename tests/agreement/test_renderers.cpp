@@ -146,7 +146,9 @@ TEST_CASE("Last scatter: shafts are right on a mesh that is too coarse for them"
         test::enclosed(scene), {.refinement = radiosity::Refinement::none, .rays = 64});
     const auto paths = render::path_traced(*solution.enclosure, camera, {.samples = 256});
     const auto last = render::last_scatter(solution, camera, {.samples = 64});
-    const auto line = render::line_of_sight(solution, camera, {.samples = 64});
+    const auto line = render::line_of_sight(
+        solution, camera,
+        {.samples = 64, .scattering_tolerance = std::numeric_limits<double>::infinity()});
     const double mean = mean_of(paths);
     const auto by_last = departure(paths, last, "single_scattering", mean);
     const auto by_line = departure(paths, line, "single_scattering", mean);

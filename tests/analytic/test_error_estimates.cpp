@@ -35,6 +35,8 @@ struct EstimatedScene {
         camera.height = height;
         auto options = file.render;
         options.samples = 64;  // edges of such large pixels are to be no error
+        // Estimated is what elements hold, whatever a picture puts right.
+        options.scattering_tolerance = std::numeric_limits<double>::infinity();
         return render::line_of_sight(solution, camera, options);
     }
 };
