@@ -102,11 +102,11 @@ class ElementMesh {
     SampleSet samples_;
     std::vector<ZoneId> zones_;
     std::vector<PatchId> patches_;
-    std::vector<NodeSamples<4>> of_zone_;   // by node
-    std::vector<NodeSamples<3>> of_patch_;  // by node
     std::size_t zone_leaves_ = 0, patch_leaves_ = 0;
     std::unordered_map<std::uint32_t, Marks> marks_;              // of vertices
     std::unordered_map<std::uint32_t, ShadowPlane> mark_planes_;  // by plane index
+    std::vector<NodeSamples<4>> of_zone_;                         // by node
+    std::vector<NodeSamples<3>> of_patch_;                        // by node
 };
 
 }  // namespace tyndall::radiosity

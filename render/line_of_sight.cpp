@@ -36,7 +36,7 @@ class LineOfSight {
     }
 
     // What the ray sees; `points`, scrambled by `seed`: of the final gather, if there is one.
-    // `anew`: as SightZones::cross has it.
+    // `anew`: as SightZones::cross has it; 0: single scattering is what zones hold.
     void look(mesh::Ray ray, const radiosity::PointSet& points, std::uint64_t seed, double anew,
               Seen& seen) const {
         seen.clear(e_.bands);
@@ -48,7 +48,8 @@ class LineOfSight {
         const auto end =
             mesh::walk(e_.mesh, ray, {entry.tet}, [&](mesh::TetId tet, double t_in, double t_out) {
                 if (e_.solid(tet) || e_.medium_of(tet) == none) return true;
-                return zones_.cross(sight, tet, t_in, t_out, scattered_, anew, seen);
+                return zones_.cross(sight, tet, t_in, t_out, seen,
+                                    anew > 0.0 ? &scattered_ : nullptr, anew);
             });
         if (!gather_) return seen_.arrive(ray, end, entry.distance, seen);
         seen_.arrive(ray, end, entry.distance, seen,

@@ -41,8 +41,8 @@ SightZones::SightZones(const radiosity::Solution& s)
     }
 }
 
-bool SightZones::cross(const SightRay& ray, TetId tet, double t_in, double t_out,
-                       const SingleScattering& scattered, double anew, Seen& seen) const {
+bool SightZones::cross(const SightRay& ray, TetId tet, double t_in, double t_out, Seen& seen,
+                       const SingleScattering* scattered, double anew) const {
     thread_local std::vector<double> along;
     along.resize(bands_);
     return zones_.descend(
@@ -50,7 +50,7 @@ bool SightZones::cross(const SightRay& ray, TetId tet, double t_in, double t_out
         [&](std::uint32_t zone) { __builtin_prefetch(leaf(zone)); },
         [](float, float) { return false; },
         [&](std::uint32_t zone, bool, float in, float out) {
-            const bool asked = anew > 0.0 && scattered.along(ray.ray, ZoneId(zone), in, out,
+            const bool asked = scattered && scattered->along(ray.ray, ZoneId(zone), in, out,
                                                              seen.transmittance, along);
             return gain(ray, zone, tet, in, out, asked ? along.data() : nullptr, anew, seen);
         });

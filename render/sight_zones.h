@@ -29,9 +29,9 @@ class SightZones {
     // Equation: ∫ T κ J ds of every leaf that is crossed, J linear in it, in closed form (4); as
     //   SeenSolution::cross, in single precision: 1e-5 of a leaf's J.
     // `scattered`: looks at single scattering anew where it would show, and what a leaf's direct
-    //   light leaves out is added `anew` times: by one ray for several; 0: not at all [-].
-    bool cross(const SightRay& ray, mesh::TetId tet, double t_in, double t_out,
-               const SingleScattering& scattered, double anew, Seen& seen) const;
+    //   light leaves out is added `anew` times: by one ray for several [-]; null: not at all.
+    bool cross(const SightRay& ray, mesh::TetId tet, double t_in, double t_out, Seen& seen,
+               const SingleScattering* scattered = nullptr, double anew = 1.0) const;
 
   private:
     struct alignas(64) Line {
