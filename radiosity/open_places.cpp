@@ -1,6 +1,7 @@
 #include "radiosity/open_places.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "radiosity/point_set.h"
 
@@ -33,8 +34,11 @@ double by_corners(const Enclosure& enclosure, const Forest& forest, Node node, D
 
 template <class Place>
 double share(std::size_t count, std::uint64_t seed, const Place& open) {
+    // Asked for at every leaf beside a body: these are not made anew each time.
     static const PointSet of_element(element_share_points), of_leaf(leaf_share_points);
-    const PointSet& points = count == element_share_points ? of_element : of_leaf;
+    std::optional<PointSet> other;
+    if (count != element_share_points && count != leaf_share_points) other.emplace(count);
+    const PointSet& points = other ? *other : count == element_share_points ? of_element : of_leaf;
     std::size_t inside = 0;
     for (std::size_t k = 0; k < points.size(); ++k) inside += !open(points(k, seed));
     return 1.0 - static_cast<double>(inside) / static_cast<double>(points.size());

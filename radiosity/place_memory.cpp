@@ -1,5 +1,6 @@
 #include "radiosity/place_memory.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 
@@ -37,12 +38,18 @@ void PlaceMemory::settle() {
         entries = {};
     }
     const std::size_t stride = 6 + count_, n = entries_.size() / stride;
+    const auto less = [stride](const double* a, const double* b) {
+        return std::lexicographical_compare(a + 6, a + stride, b + 6, b + stride);
+    };
     table_.assign(std::bit_ceil(2 * n + 1), empty);
     for (std::size_t e = 0; e < n; ++e) {
         std::size_t k = hash(&entries_[e * stride]) & (table_.size() - 1);
         while (table_[k] != empty && !same(&entries_[table_[k] * stride], &entries_[e * stride]))
             k = (k + 1) & (table_.size() - 1);
-        table_[k] = static_cast<std::uint32_t>(e);
+        // Two samples may have been moved to one place, the nearest of a body's surface, and hold
+        // what different rays found: whichever thread came first, the lesser is kept.
+        if (table_[k] == empty || less(&entries_[e * stride], &entries_[table_[k] * stride]))
+            table_[k] = static_cast<std::uint32_t>(e);
     }
 }
 

@@ -12,8 +12,9 @@
 
 namespace tyndall::radiosity {
 
-// A place is a point, and the normal of the side of a surface it lies on (0: in a medium). The same
-// place has the same values whenever it is kept, so that it does not matter who keeps it first.
+// A place is a point, and the normal of the side of a surface it lies on (0: in a medium). Of a
+// place that is kept with different values the least are found, in lexicographic order, so that it
+// does not matter who keeps it first.
 class PlaceMemory {
   public:
     // `values`: a place.

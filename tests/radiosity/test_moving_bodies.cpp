@@ -6,6 +6,7 @@
 #include "mesh/body.h"
 #include "radiosity/adaptive.h"
 #include "radiosity/exchange_methods.h"
+#include "radiosity/leaves_in_order.h"
 #include "radiosity/open_places.h"
 #include "radiosity/solution_file.h"
 #include "support/catch.h"
@@ -219,4 +220,22 @@ TEST_CASE("Surfaces that have moved, and what cannot be a body", "[moving]") {
     Scene lamp = before;
     lamp.lights.push_back({"bulb", PointLight{there + Point(0.1), {1.0}}, ""});
     CHECK(why_no_bodies(lamp, *moved, still) == "holds a camera, a light or the point of a medium");
+}
+
+TEST_CASE("Leaves in order are those of the elements, with nothing taken by bodies", "[moving]") {
+    const auto enclosure = with_box(there);
+    ElementMesh mesh(*enclosure);
+    mesh.refine_to({0.7, 500, 500});
+    const Elements elements = elements_of_leaves(*enclosure, mesh.forest());
+    const Elements leaves = leaves_in_order(*enclosure, mesh.forest());
+    CHECK(leaves.patches == elements.patches);
+    CHECK(leaves.zones == elements.zones);
+    CHECK(leaves.of_zone == elements.of_zone);
+    // The box stands in the zones: whole leaves are more than what is left of them.
+    double whole = 0.0, open = 0.0;
+    for (std::size_t i = elements.patches.size(); i < elements.size(); ++i) {
+        whole += leaves.capacity[i];
+        open += elements.capacity[i];
+    }
+    CHECK(open < 0.999 * whole);
 }
