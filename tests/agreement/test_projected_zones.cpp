@@ -1,4 +1,6 @@
 // Projected zones show what the line of sight does, but for where a sub-pixel's middle falls.
+#include <limits>
+
 #include "mesh/input_error.h"
 #include "radiosity/adaptive.h"
 #include "render/compare.h"

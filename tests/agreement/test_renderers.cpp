@@ -1,4 +1,6 @@
 // Every renderer against followed paths, layer by layer, over blocks of a picture.
+#include <limits>
+
 #include "radiosity/adaptive.h"
 #include "render/last_scatter.h"
 #include "render/line_of_sight.h"

@@ -1,6 +1,7 @@
 // Estimated errors against true ones: of pictures against a path tracer and finer runs, of
 // solutions against finer runs.
 #include <cmath>
+#include <limits>
 
 #include "cli/scene_file.h"
 #include "radiosity/adaptive.h"

@@ -1,5 +1,7 @@
 // Sharp light shafts: pictures from meshes that are cut along shadows' edges and from meshes that
 // are not, against small steps along every ray with exact visibility.
+#include <limits>
+
 #include "cli/scene_file.h"
 #include "radiosity/adaptive.h"
 #include "render/compare.h"
