@@ -8,6 +8,7 @@
 
 #include "cli/toml_reader.h"
 #include "mesh/input_error.h"
+#include "render/options.h"
 
 namespace tyndall::cli {
 namespace {
@@ -142,7 +143,10 @@ std::vector<std::string> axis_keys(const Study& study) {
 }
 
 std::vector<PlacedSetting> common_settings(const Study& study, const CommonFlags& flags) {
-    auto settings = study.set;
+    // Meshes are judged by what their elements hold, unless the study says otherwise.
+    std::vector<PlacedSetting> settings{
+        {"render.scattering_tolerance", fmt::format("{:g}", render::as_elements_hold), ""}};
+    settings.insert(settings.end(), study.set.begin(), study.set.end());
     for (const auto& setting : flags.settings) settings.push_back({setting.key, setting.value, ""});
     if (flags.seed) settings.push_back({"solve.seed", fmt::format("{}", *flags.seed), ""});
     return settings;

@@ -8,6 +8,9 @@
 
 namespace tyndall::render {
 
+// For RenderOptions::scattering_tolerance [-].
+inline constexpr double as_elements_hold = 1e9;
+
 struct RenderOptions {
     std::string method = "line_of_sight";
     std::size_t samples = 16;  // rays a pixel, a scrambled (0,2)-net; a power of two is best
@@ -23,7 +26,7 @@ struct RenderOptions {
     double direct_tolerance = 0.002;  // [-]
     // What a leaf of a medium scatters once is looked at on every fourth ray (line_of_sight),
     // wherever the leaf's own linear function may be off on that ray by more than this share of
-    // the mean radiance of all elements; infinite: nowhere, pictures show what elements hold.
+    // the mean radiance of all elements; as_elements_hold: nowhere.
     double scattering_tolerance = 0.002;  // [-]
     // Of methods that draw lots (last_scatter, two_pass, path_traced): go on, whatever `samples`
     // says, until the picture's estimated error in blocks of 4 × 4 pixels, over its mean, is below

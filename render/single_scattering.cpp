@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <vector>
 
 #include "radiosity/extinction_field.h"
+#include "render/options.h"
 
 namespace tyndall::render {
 
@@ -142,7 +144,8 @@ SingleScattering::SingleScattering(const radiosity::Solution& solution,
                                    const radiosity::DirectLight& light, double tolerance)
     : s_(solution),
       light_(light),
-      threshold_(std::isinf(tolerance) ? tolerance : tolerance * mean_radiance(solution)) {}
+      threshold_(tolerance < as_elements_hold ? tolerance * mean_radiance(solution)
+                                              : std::numeric_limits<double>::infinity()) {}
 
 bool SingleScattering::along(const mesh::Ray& ray, ZoneId zone, double t_in, double t_out,
                              std::span<const double> transmittance,

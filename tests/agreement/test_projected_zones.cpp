@@ -45,8 +45,7 @@ TEST_CASE("Projected zones agree with the line of sight, layer by layer", "[proj
     const auto camera = towards_slit();
     // What zones hold, as projected_zones shows it: no ray looks at single scattering anew.
     const auto walked = render::line_of_sight(
-        slit_solution(), camera,
-        {.samples = 64, .scattering_tolerance = std::numeric_limits<double>::infinity()});
+        slit_solution(), camera, {.samples = 64, .scattering_tolerance = render::as_elements_hold});
     const auto projected = render::projected_zones(slit_solution(), camera, {.samples = 64});
     // Media have no edges in a picture: lines through the same zones, at other places of a pixel.
     // Surfaces have, and an edge is placed to an eighth of a pixel.

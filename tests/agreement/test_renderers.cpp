@@ -149,8 +149,7 @@ TEST_CASE("Last scatter: shafts are right on a mesh that is too coarse for them"
     const auto paths = render::path_traced(*solution.enclosure, camera, {.samples = 256});
     const auto last = render::last_scatter(solution, camera, {.samples = 64});
     const auto line = render::line_of_sight(
-        solution, camera,
-        {.samples = 64, .scattering_tolerance = std::numeric_limits<double>::infinity()});
+        solution, camera, {.samples = 64, .scattering_tolerance = render::as_elements_hold});
     const double mean = mean_of(paths);
     const auto by_last = departure(paths, last, "single_scattering", mean);
     const auto by_line = departure(paths, line, "single_scattering", mean);

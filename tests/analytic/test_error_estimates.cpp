@@ -37,7 +37,7 @@ struct EstimatedScene {
         auto options = file.render;
         options.samples = 64;  // edges of such large pixels are to be no error
         // Estimated is what elements hold, whatever a picture puts right.
-        options.scattering_tolerance = std::numeric_limits<double>::infinity();
+        options.scattering_tolerance = render::as_elements_hold;
         return render::line_of_sight(solution, camera, options);
     }
 };

@@ -32,7 +32,7 @@ ShaftCase small(const std::string& scene) {
     c.render = file.render;
     c.render.samples = 4;
     // The mesh is to hold the shafts: no ray looks at them anew.
-    c.render.scattering_tolerance = std::numeric_limits<double>::infinity();
+    c.render.scattering_tolerance = render::as_elements_hold;
     c.solve.rays = 4;  // nothing is asked of indirect light
     c.solve.gather_rays = 1;
     c.exact = test::marched_picture(*c.enclosure, c.camera, c.render.samples, 0.003);
