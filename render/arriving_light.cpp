@@ -4,8 +4,10 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <mutex>
 #include <numbers>
 
 #include "radiosity/cube_faces.h"
@@ -73,11 +75,13 @@ ArrivingLight::ArrivingLight(const radiosity::Solution& solution,
     const radiosity::Fields reflected = radiosity::reflected_sources(s_);
     std::vector<float> radiance(places_.places.size() * pixels_.size() * bands_);
     for (std::size_t sweep = 0; sweep <= options.sweeps; ++sweep) {
-        const double done = double(sweep) / double(options.sweeps + 1);
-        if (!radiosity::report(progress, {"arriving light", done})) return;
         radiosity::GatherScene scene(sweep == 0 ? e_ : whole_, s_.forest, reflected, cube_detail);
         if (sweep > 1) reflect(scene);
-        look(sweep, scene, radiance);
+        const auto tell = [&](double done) {
+            const double sweeps = double(options.sweeps + 1);
+            return radiosity::report(progress, {"arriving light", (double(sweep) + done) / sweeps});
+        };
+        if (!look(sweep, scene, tell, radiance)) return;
         keep(sweep, radiance);
     }
 }
@@ -145,7 +149,9 @@ void ArrivingLight::add_pixel(const radiosity::CubeFace& face, std::size_t i, st
 }
 
 // L of every place and pixel, [(place * pixels + pixel) * bands + band]. A direction at a time.
-void ArrivingLight::look(std::size_t sweep, const radiosity::GatherScene& scene,
+// False: stopped.
+bool ArrivingLight::look(std::size_t sweep, const radiosity::GatherScene& scene,
+                         const std::function<bool(double)>& tell,
                          std::vector<float>& radiance) const {
     struct Own {
         radiosity::GatherScene scene;
@@ -157,7 +163,11 @@ void ArrivingLight::look(std::size_t sweep, const radiosity::GatherScene& scene,
                    std::vector<double>(bands_)};
     });
     const auto on_way = sweep > 1 ? Coefficients::whole : Coefficients::reduced;
+    std::atomic<bool> stop = false;
+    std::size_t done = 0;
+    std::mutex mutex;
     tbb::parallel_for(std::size_t(0), pixels_.size(), [&](std::size_t p) {
+        if (stop) return;
         Own& own = threads.local();
         const Direction direction = pixels_[p].direction;
         if (sweep > 0) {
@@ -173,7 +183,10 @@ void ArrivingLight::look(std::size_t sweep, const radiosity::GatherScene& scene,
             // An ancestor's linear function may dip below zero.
             for (std::size_t b = 0; b < bands_; ++b) to[b] = float(std::max(0.0, own.radiance[b]));
         }
+        const std::lock_guard lock(mutex);
+        if (!tell(double(++done) / double(pixels_.size()))) stop = true;
     });
+    return !stop;
 }
 
 // Moments of what was looked at in media, and cosine-weighted means on surfaces.

@@ -2,6 +2,7 @@
 // from.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -43,8 +44,9 @@ double phase_coefficient(const radiosity::PhaseFunction& phase, std::size_t l);
 //   after the other, from all places, so that J is made for one direction at a time. c_lm is the
 //   sum over a cube's pixels of L times the pixel's ∫ Y_lm dω, over the mean L⁰. In between both
 //   integrals are linear, and δ is. Where L⁰ is nothing, q = 1.
-// Cost: 6 resolution² walks a place and sweep (half of them on surfaces), and one more sweep for
-//   L⁰. Memory: 24 resolution² bytes a place and band meanwhile; (order + 1)² numbers then.
+// Cost: a walk a place, pixel and sweep (half of them on surfaces), and one more sweep for L⁰.
+//   There are about 1500 pixels: 6 resolution², and what bright ones are divided into. Memory: 4
+//   bytes a place, pixel and band meanwhile; (order + 1)² numbers a place and band then.
 // Same bits at any thread count.
 // Source: Rushmeier (1991), whose cube is turned to the eye and weighed by Φ; source iteration on
 //   discrete ordinates: Chandrasekhar (1950), Lewis & Miller (1984), Languénou, Bouatouch & Chelle
@@ -91,8 +93,8 @@ class ArrivingLight {
     void add_pixel(const radiosity::CubeFace& face, std::size_t i, std::size_t j,
                    std::size_t parts);
     void place_leaves();
-    void look(std::size_t sweep, const radiosity::GatherScene& scene,
-              std::vector<float>& radiance) const;
+    bool look(std::size_t sweep, const radiosity::GatherScene& scene,
+              const std::function<bool(double)>& tell, std::vector<float>& radiance) const;
     void keep(std::size_t sweep, const std::vector<float>& radiance);
     void turn_sources(Direction direction, std::vector<float>& indirect) const;
     void reflect(radiosity::GatherScene& scene) const;

@@ -14,14 +14,14 @@ struct ArrivingPlacesOptions {
     // Zones stand together in nodes of the forest whose longest edge is below this share of their
     // medium's diagonal; leaves that are larger stand alone [-].
     double group = 0.12;
-    double patch_group = 0.06;  // the same of patches, of the mesh's diagonal [-]
+    double patch_group = 0.04;  // the same of patches, of the mesh's diagonal [-]
     // The same of nodes with a leaf in which direct light is more than indirect: what is scattered
     // forwards there is as narrow as shafts are.
-    double lit_group = 0.06, lit_patch_group = 0.03;  // [-]
+    double lit_group = 0.05, lit_patch_group = 0.015;  // [-]
     // Zones at a distance d from a patch that is lit so are smaller than `near` × d, too, but need
     // not be smaller than `least` of the diagonal: from one place to the next the patch is seen in
     // another direction [-].
-    double near = 0.4, least = 0.03;
+    double near = 0.3, least = 0.02;
 };
 
 struct ArrivingPlaces {

