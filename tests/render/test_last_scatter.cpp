@@ -102,7 +102,7 @@ TEST_CASE("Cubes: the series is the sum of Φ over the cube's pixels") {
         .patch_group = 1.0, .lit_patch_group = 1.0, .least = 1.0};
     const render::ArrivingLight light(
         solution,
-        {.resolution = 32, .places = coarse, .brightest = 0.0, .series = 1e-3, .sweeps = 0});
+        {.resolution = 32, .brightest = 0.0, .places = coarse, .series = 1e-3, .sweeps = 0});
     const radiosity::GatherScene gathered(*solution.enclosure, solution.forest,
                                           radiosity::reflected_sources(solution), 0.2);
     const radiosity::PhaseFunction phase{.asymmetry = 0.6};
