@@ -21,12 +21,8 @@ GatherScene::GatherScene(const Enclosure& enclosure, const Forest& forest, const
       patches_(sources.patch),
       detail_(static_cast<float>(detail)) {
     sources_.resize(zones_.size() * stride_ / 4 + 1);
-    Source* const first = sources_[0].of;
-    for (std::size_t k = 0; k < sources.zone.size(); ++k) {
-        const Affine& f = sources.zone[k];
-        first[k / sources.bands * stride_ + k % sources.bands] = {
-            {float(f.gradient.x), float(f.gradient.y), float(f.gradient.z)}, float(f.constant)};
-    }
+    for (std::size_t k = 0; k < sources.zone.size(); ++k)
+        set_source(ZoneId(k / sources.bands), k % sources.bands, sources.zone[k]);
     for (std::size_t t = 0; t < enclosure.mesh.tets.size(); ++t)
         for (std::size_t b = 0; b < enclosure.bands; ++b)
             extinction_.push_back(
@@ -34,6 +30,17 @@ GatherScene::GatherScene(const Enclosure& enclosure, const Forest& forest, const
     if (!enclosure.varies()) return;
     for (std::size_t t = 0; t < enclosure.mesh.tets.size(); ++t)
         varying_.push_back(enclosure.solid(TetId(t)) ? nullptr : enclosure.varying(TetId(t), 0));
+}
+
+void GatherScene::set_source(ZoneId zone, std::size_t band, const Affine& source) {
+    const auto& g = source.gradient;
+    Source* const first = sources_[0].of;
+    first[zone.value * stride_ + band] = {{float(g.x), float(g.y), float(g.z)},
+                                          float(source.constant)};
+}
+
+void GatherScene::set_source(PatchId patch, std::size_t band, const Affine& source) {
+    patches_[patch.value * enclosure_.bands + band] = source;
 }
 
 // One ray's way through the packed trees.

@@ -36,6 +36,11 @@ class GatherScene {
     GatherScene(const Enclosure& enclosure, const Forest& forest, const Fields& sources,
                 double detail = 0.0);
 
+    // Gives a zone or a patch another source, for scenes whose sources change from walk to walk. Of
+    // zones inner nodes, too: nothing is coarsened.
+    void set_source(ZoneId zone, std::size_t band, const Affine& source);
+    void set_source(PatchId patch, std::size_t band, const Affine& source);
+
   private:
     friend class RadianceWalk;
     struct Source {

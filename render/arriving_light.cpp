@@ -1,19 +1,22 @@
 #include "render/arriving_light.h"
 
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <atomic>
 #include <cmath>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
-#include <limits>
-#include <map>
+#include <mutex>
 #include <numbers>
+
+#include "radiosity/cube_faces.h"
 
 namespace tyndall::render {
 
 using mesh::Direction;
+using mesh::PatchId;
 using mesh::Point;
-using mesh::TetId;
-using mesh::VertexId;
 using mesh::ZoneId;
 using radiosity::none;
 
@@ -22,9 +25,8 @@ namespace {
 // Zones below this share of their distance stand for their leaves in walks, as in the solve's own
 // last gathers.
 constexpr double cube_detail = 0.2;
+constexpr double most_parts = 6.0;     // of a pixel, along its edge
 constexpr std::size_t sub_pixels = 4;  // along a pixel's edge, for its ∫ Y dω
-// From a corner on a wall towards the node's middle, so that no ray starts on the wall [-].
-constexpr double off_wall = 1e-3;
 
 // Such that f_l of all orders above is below `series`.
 std::size_t order_of(const radiosity::PhaseFunction& phase, const ArrivingLightOptions& options) {
@@ -52,153 +54,237 @@ double phase_coefficient(const radiosity::PhaseFunction& phase, std::size_t l) {
     return l == 0 ? 1.0 : std::pow(phase.asymmetry, double(l));  // (57)
 }
 
-// Finds the nodes whose corners have cubes.
-class ArrivingLight::Grouping {
-  public:
-    Grouping(ArrivingLight& light, const ArrivingLightOptions& options) : l_(light) {
-        find_walls();
-        std::vector<Point> low(l_.e_.media.size(), Point(std::numeric_limits<double>::max()));
-        std::vector<Point> high(l_.e_.media.size(), -low.front());
-        for_tets([&](TetId tet, std::uint32_t medium) {
-            for (const VertexId v : l_.e_.mesh.tets[tet.value]) {
-                low[medium] = glm::min(low[medium], l_.e_.mesh.points[v.value]);
-                high[medium] = glm::max(high[medium], l_.e_.mesh.points[v.value]);
-            }
-        });
-        for_tets([&](TetId tet, std::uint32_t medium) {
-            below(mesh::root_zone(tet), options.group * glm::distance(low[medium], high[medium]));
-        });
-    }
-
-  private:
-    template <class OnTet>
-    void for_tets(OnTet&& on_tet) const {
-        const auto& e = l_.e_;
-        for (std::size_t t = 0; t < e.mesh.tets.size(); ++t) {
-            const TetId tet(t);
-            if (e.solid(tet) || e.medium_of(tet) == none) continue;
-            if (!e.media[e.medium_of(tet)].phase.isotropic()) on_tet(tet, e.medium_of(tet));
-        }
-    }
-
-    // Base vertices of opaque facets.
-    void find_walls() {
-        on_wall_.assign(l_.e_.mesh.points.size(), false);
-        for (const auto& facet : l_.e_.mesh.facets)
-            if (facet.opacity == mesh::Opacity::opaque)
-                for (const VertexId v : facet.corners) on_wall_[v.value] = true;
-    }
-
-    void below(ZoneId zone, double size) {
-        const auto& forest = l_.s_.forest;
-        if (!forest.is_leaf(zone) && forest[zone].longest_edge > size) {
-            below(forest[zone].first_child, size);
-            below(ZoneId(forest[zone].first_child.value + 1ull), size);
-            return;
-        }
-        l_.group_of_[zone.value] = std::uint32_t(l_.corners_.size());
-        std::array<std::uint32_t, 4> cubes;
-        for (int k = 0; k < 4; ++k) cubes[k] = cube_at(zone, forest[zone].corners[k]);
-        l_.corners_.push_back(cubes);
-    }
-
-    // A corner that may be on a wall has a cube for each base tet: two of them may lie on two sides
-    // of it.
-    std::uint32_t cube_at(ZoneId zone, VertexId corner) {
-        const auto& forest = l_.s_.forest;
-        bool wall = true;
-        for (const VertexId v : forest.carrier(corner))
-            if (v.valid()) wall = wall && on_wall_[v.value];
-        const TetId tet = forest.base_tet(zone);
-        const auto [at, fresh] =
-            known_.try_emplace({corner.value, wall ? tet.value : none}, l_.cubes_.size());
-        if (fresh) {
-            const Point x = forest.point(corner);
-            auto cube = std::make_unique<Cube>();
-            cube->x = wall ? x + off_wall * (forest.centroid(zone) - x) : x;
-            cube->tet = tet;
-            l_.cubes_.push_back(std::move(cube));
-        }
-        return std::uint32_t(at->second);
-    }
-
-    ArrivingLight& l_;
-    std::vector<bool> on_wall_;
-    std::map<std::array<std::uint32_t, 2>, std::size_t> known_;
-};
-
 ArrivingLight::ArrivingLight(const radiosity::Solution& solution,
-                             const ArrivingLightOptions& options)
+                             const ArrivingLightOptions& options,
+                             const radiosity::ProgressCallback& progress)
     : s_(solution),
       e_(*solution.enclosure),
+      whole_(with_whole_extinction(e_)),
+      media_(e_),
       bands_(e_.bands),
-      scene_(e_, s_.forest, radiosity::reflected_sources(s_), cube_detail) {
+      places_(arriving_places(solution, options.places)) {
     for (const auto& medium : e_.media) order_ = std::max(order_, order_of(medium.phase, options));
-    group_of_.assign(s_.forest.zone_count(), none);
     if (order_ == 0) return;
-    weigh_pixels(options.resolution);
-    Grouping(*this, options);
+    sources_ = std::make_unique<TurnedSources>(s_, whole_, media_);
+    weigh_pixels(options);
+    place_leaves();
+    mean_.resize(places_.in_media * bands_);
+    moments_.resize(mean_.size() * harmonics_count(order_));
+    irradiance_.resize((places_.places.size() - places_.in_media) * bands_);
+    beyond_.resize(irradiance_.size());
+    const radiosity::Fields reflected = radiosity::reflected_sources(s_);
+    std::vector<float> radiance(places_.places.size() * pixels_.size() * bands_);
+    for (std::size_t sweep = 0; sweep <= options.sweeps; ++sweep) {
+        radiosity::GatherScene scene(sweep == 0 ? e_ : whole_, s_.forest, reflected, cube_detail);
+        if (sweep > 1) reflect(scene);
+        const auto tell = [&](double done) {
+            const double sweeps = double(options.sweeps + 1);
+            return radiosity::report(progress, {"arriving light", (double(sweep) + done) / sweeps});
+        };
+        if (!look(sweep, scene, tell, radiance)) return;
+        keep(sweep, radiance);
+    }
 }
 
-void ArrivingLight::weigh_pixels(std::size_t resolution) {
-    const std::size_t count = harmonics_count(order_);
-    std::vector<double> values(count);
-    for (const auto& face : radiosity::full_cube_faces(resolution))
+void ArrivingLight::place_leaves() {
+    const auto& groups = places_.zone_corners;
+    std::vector<ZoneId> group_zone(groups.size());
+    for (std::size_t z = 0; z < places_.zone_groups.size(); ++z)
+        if (places_.zone_groups[z] != none) group_zone[places_.zone_groups[z]] = ZoneId(z);
+    for (std::size_t k = 0; k < places_.zones.size(); ++k) {
+        const auto w = barycentric(s_.forest, group_zone[places_.group_of_zone[k]],
+                                   s_.forest.centroid(places_.zones[k]));
+        leaf_weights_.push_back({float(w[0]), float(w[1]), float(w[2]), float(w[3])});
+    }
+}
+
+void ArrivingLight::weigh_pixels(const ArrivingLightOptions& options) {
+    for (const auto& face : radiosity::full_cube_faces(options.resolution))
         for (std::size_t j = 0; j < face.nv; ++j)
             for (std::size_t i = 0; i < face.nu; ++i) {
-                const double share = face.weights[j * face.nu + i];
-                pixels_.push_back({glm::normalize(face.direction(i, j)), share});
-                const std::size_t first = harmonics_.size();
-                harmonics_.resize(first + count, 0.0);
-                double sum = 0.0;
-                for (std::size_t k = 0; k < sub_pixels * sub_pixels; ++k) {
-                    const auto aside = [](std::size_t n) {
-                        return (double(n) + 0.5) / double(sub_pixels) - 0.5;
-                    };
-                    Direction d = face.direction(i, j);
-                    d[face.along_u] += aside(k % sub_pixels) * face.u_step();
-                    d[face.along_v] += aside(k / sub_pixels) * face.v_step();
-                    const double length = glm::length(d), weight = 1.0 / std::pow(length, 3);
-                    sum += weight;
-                    spherical_harmonics(d / length, order_, values);
-                    for (std::size_t n = 0; n < count; ++n)
-                        harmonics_[first + n] += weight * values[n];
+                double parts = 1.0;
+                if (options.brightest > 0.0) {
+                    const double bright =
+                        sources_->brightness(glm::normalize(face.direction(i, j)));
+                    parts = std::ceil(std::sqrt(bright / options.brightest));
                 }
-                for (std::size_t n = 0; n < count; ++n)
-                    harmonics_[first + n] *= 4.0 * std::numbers::pi * share / sum;
+                add_pixel(face, i, j, std::size_t(std::clamp(parts, 1.0, most_parts)));
             }
 }
 
-void ArrivingLight::make(Cube& cube) const {
+// A pixel in parts × parts, their shares of it by 1/r³ in their middles.
+void ArrivingLight::add_pixel(const radiosity::CubeFace& face, std::size_t i, std::size_t j,
+                              std::size_t parts) {
     const std::size_t count = harmonics_count(order_);
-    cube.mean.assign(bands_, 0.0);
-    cube.moments.assign(bands_ * count, 0.0);
-    thread_local std::vector<double> radiance;
-    radiance.resize(bands_);
-    for (std::size_t p = 0; p < pixels_.size(); ++p) {
-        radiosity::radiance_along(scene_, {cube.x, pixels_[p].direction}, {cube.tet}, radiance);
-        const double* harmonics = &harmonics_[p * count];
-        for (std::size_t b = 0; b < bands_; ++b) {
+    const std::size_t fine = parts * ((sub_pixels + parts - 1) / parts);  // along the pixel's edge
+    const std::size_t first = pixels_.size();
+    std::vector<double> values(count);
+    const auto towards = [&](double k, double l, std::size_t n) {
+        Direction d = face.direction(i, j);
+        d[face.along_u] += ((k + 0.5) / double(n) - 0.5) * face.u_step();
+        d[face.along_v] += ((l + 0.5) / double(n) - 0.5) * face.v_step();
+        return d;
+    };
+    for (std::size_t k = 0; k < parts * parts; ++k)
+        pixels_.push_back(
+            {glm::normalize(towards(double(k % parts), double(k / parts), parts)), 0.0});
+    harmonics_.resize(pixels_.size() * count, 0.0);
+    double sum = 0.0;
+    for (std::size_t k = 0; k < fine * fine; ++k) {
+        const Direction d = towards(double(k % fine), double(k / fine), fine);
+        const double length = glm::length(d), weight = 1.0 / std::pow(length, 3);
+        const std::size_t u = k % fine * parts / fine, v = k / fine * parts / fine;
+        const std::size_t pixel = first + v * parts + u;
+        sum += weight;
+        pixels_[pixel].share += weight;
+        spherical_harmonics(d / length, order_, values);
+        for (std::size_t n = 0; n < count; ++n) harmonics_[pixel * count + n] += weight * values[n];
+    }
+    const double share = face.weights[j * face.nu + i] / sum;
+    for (std::size_t p = first; p < pixels_.size(); ++p) {
+        pixels_[p].share *= share;
+        for (std::size_t n = 0; n < count; ++n)
+            harmonics_[p * count + n] *= 4.0 * std::numbers::pi * share;
+    }
+}
+
+// L of every place and pixel, [(place * pixels + pixel) * bands + band]. A direction at a time.
+// False: stopped.
+bool ArrivingLight::look(std::size_t sweep, const radiosity::GatherScene& scene,
+                         const std::function<bool(double)>& tell,
+                         std::vector<float>& radiance) const {
+    struct Own {
+        radiosity::GatherScene scene;
+        std::vector<float> indirect;
+        std::vector<double> radiance;
+    };
+    tbb::enumerable_thread_specific<Own> threads([&] {
+        return Own{scene, std::vector<float>(s_.forest.zone_count() * bands_),
+                   std::vector<double>(bands_)};
+    });
+    const auto on_way = sweep > 1 ? Coefficients::whole : Coefficients::reduced;
+    std::atomic<bool> stop = false;
+    std::size_t done = 0;
+    std::mutex mutex;
+    tbb::parallel_for(std::size_t(0), pixels_.size(), [&](std::size_t p) {
+        if (stop) return;
+        Own& own = threads.local();
+        const Direction direction = pixels_[p].direction;
+        if (sweep > 0) {
+            turn_sources(direction, own.indirect);
+            sources_->fill(direction, on_way, own.indirect, own.scene);
+        }
+        for (std::size_t k = 0; k < places_.places.size(); ++k) {
+            const auto& place = places_.places[k];
+            float* to = &radiance[(k * pixels_.size() + p) * bands_];
+            std::fill_n(to, bands_, 0.0f);
+            if (place.on_surface() && !(glm::dot(place.normal, direction) > 0.0)) continue;
+            radiosity::radiance_along(own.scene, {place.x, direction}, place.start, own.radiance);
             // An ancestor's linear function may dip below zero.
-            const double value = std::max(0.0, radiance[b]);
-            cube.mean[b] += pixels_[p].share * value;
-            double* moments = &cube.moments[b * count];
+            for (std::size_t b = 0; b < bands_; ++b) to[b] = float(std::max(0.0, own.radiance[b]));
+        }
+        const std::lock_guard lock(mutex);
+        if (!tell(double(++done) / double(pixels_.size()))) stop = true;
+    });
+    return !stop;
+}
+
+// Moments of what was looked at in media, and cosine-weighted means on surfaces.
+void ArrivingLight::keep(std::size_t sweep, const std::vector<float>& radiance) {
+    const std::size_t count = harmonics_count(order_), cubes = places_.in_media;
+    const auto at = [&](std::size_t place, std::size_t p, std::size_t b) {
+        return double(radiance[(place * pixels_.size() + p) * bands_ + b]);
+    };
+    tbb::parallel_for(std::size_t(0), cubes * bands_, [&](std::size_t i) {
+        const std::size_t place = i / bands_, b = i % bands_;
+        double* moments = &moments_[i * count];
+        std::fill_n(moments, count, 0.0);
+        double mean = 0.0;
+        for (std::size_t p = 0; p < pixels_.size(); ++p) {
+            const double value = at(place, p, b), *harmonics = &harmonics_[p * count];
+            mean += pixels_[p].share * value;
             for (std::size_t n = 0; n < count; ++n) moments[n] += value * harmonics[n];
         }
+        if (sweep == 0) mean_[i] = mean;
+        if (mean_[i] > 0.0)
+            for (std::size_t n = 0; n < count; ++n) moments[n] /= mean_[i];
+    });
+    tbb::parallel_for(std::size_t(0), irradiance_.size(), [&](std::size_t i) {
+        const std::size_t place = cubes + i / bands_, b = i % bands_;
+        const Direction n = places_.places[place].normal;
+        double sum = 0.0, all = 0.0;
+        for (std::size_t p = 0; p < pixels_.size(); ++p) {
+            const double weight =
+                pixels_[p].share * std::max(0.0, glm::dot(n, pixels_[p].direction));
+            all += weight;
+            sum += weight * at(place, p, b);
+        }
+        const double mean = all > 0.0 ? sum / all : 0.0;
+        if (sweep == 0) irradiance_[i] = mean;
+        beyond_[i] = mean - irradiance_[i];  // (62)
+    });
+}
+
+// What zones scatter of the light of the sweep before, over what even scattering makes of the
+// solution's.
+void ArrivingLight::turn_sources(Direction direction, std::vector<float>& indirect) const {
+    const std::size_t count = harmonics_count(order_), cubes = places_.in_media;
+    thread_local std::vector<double> weights, turned;
+    turned.resize(e_.media.size() * cubes * bands_);
+    for (std::uint32_t m = 0; m < e_.media.size(); ++m) {
+        if (e_.media[m].phase.isotropic()) continue;
+        weigh(m, direction, weights);
+        for (std::size_t i = 0; i < cubes * bands_; ++i) {
+            const double* moments = &moments_[i * count];
+            double q = 0.0;
+            for (std::size_t n = 0; n < count; ++n) q += weights[n] * moments[n];  // (57)
+            turned[m * cubes * bands_ + i] = std::max(0.0, q);
+        }
     }
-    for (std::size_t b = 0; b < bands_; ++b)
-        if (cube.mean[b] > 0.0)
-            for (std::size_t n = 0; n < count; ++n) cube.moments[b * count + n] /= cube.mean[b];
+    for (std::size_t z = 0; z < s_.forest.zone_count(); ++z) {
+        const std::uint32_t m = e_.medium_of(s_.forest.base_tet(ZoneId(z)));
+        for (std::size_t b = 0; b < bands_; ++b)
+            indirect[z * bands_ + b] = m == none ? 0.0f : float(media_.albedo(m, b));
+    }
+    for (std::size_t k = 0; k < places_.zones.size(); ++k) {
+        const ZoneId zone = places_.zones[k];
+        const std::uint32_t m = e_.medium_of(s_.forest.base_tet(zone));
+        const auto& corners = places_.zone_corners[places_.group_of_zone[k]];
+        for (std::size_t b = 0; b < bands_; ++b) {
+            double scattered = 0.0, mean = 0.0;
+            for (int c = 0; c < 4; ++c) {
+                const std::size_t i = corners[c] * bands_ + b;
+                const double w = double(leaf_weights_[k][c]) * mean_[i];
+                scattered += w * turned[m * cubes * bands_ + i];
+                mean += w;
+            }
+            const double q = mean > 0.0 ? scattered / mean : 1.0;
+            const double back = media_.given_back(m, b);
+            indirect[zone.value * bands_ + b] = float((media_.albedo(m, b) - back) * q + back);
+        }
+    }
 }
 
-const ArrivingLight::Cube& ArrivingLight::made(std::uint32_t index) const {
-    Cube& cube = *cubes_[index];
-    std::call_once(cube.made, [&] { make(cube); });
-    return cube;
-}
-
-std::span<const double> ArrivingLight::mean(std::size_t cube) const {
-    return made(std::uint32_t(cube)).mean;
+// What patches reflect of the light of the sweep before.
+void ArrivingLight::reflect(radiosity::GatherScene& scene) const {
+    std::vector<double> more(bands_);
+    for (std::size_t p = 0; p < s_.forest.patch_count(); ++p) {
+        const PatchId patch(p);
+        const auto side = radiosity::side_of(e_, s_.forest, patch);
+        if (!s_.forest.is_leaf(patch) || side == none) continue;
+        const std::uint32_t root = s_.forest.base_facet_side(patch);
+        const Point x = s_.forest.centroid(patch);
+        beyond(mesh::FacetId(root / 2), root % 2 ? mesh::Side::back : mesh::Side::front, x, more);
+        for (std::size_t b = 0; b < bands_; ++b) {
+            const double a = radiosity::scatter_of(s_, patch, b), kept = sources_->kept(patch, b);
+            const auto &direct = s_.direct.at(patch, b), &indirect = s_.indirect.at(patch, b);
+            scene.set_source(
+                patch, b,
+                {a * (kept * direct.gradient + indirect.gradient),
+                 radiosity::emission_of(s_, patch, b) - radiosity::split_emission_of(s_, patch, b) +
+                     a * (kept * direct.constant + indirect.constant + more[b])});
+        }
+    }
 }
 
 void ArrivingLight::weigh(std::uint32_t medium, Direction direction,
@@ -218,14 +304,15 @@ void ArrivingLight::shares(ZoneId group, std::span<const double> weights, Point 
     mean.assign(2 * bands_, 0.0);
     std::ranges::fill(at_a, 0.0);
     std::ranges::fill(at_b, 0.0);
+    const auto& corners = places_.zone_corners[places_.zone_groups[group.value]];
     for (int k = 0; k < 4; ++k) {
-        const Cube& cube = made(corners_[group_of_[group.value]][k]);
         const double w_a = std::max(0.0, at[0][k]), w_b = std::max(0.0, at[1][k]);
         for (std::size_t band = 0; band < bands_; ++band) {
-            const double* moments = &cube.moments[band * weights.size()];
+            const std::size_t i = corners[k] * bands_ + band;
+            const double* moments = &moments_[i * weights.size()];
             double q = 0.0;
             for (std::size_t n = 0; n < weights.size(); ++n) q += weights[n] * moments[n];  // (57)
-            const double m = cube.mean[band], scattered = m * std::max(0.0, q);
+            const double m = mean_[i], scattered = m * std::max(0.0, q);
             at_a[band] += w_a * scattered;
             at_b[band] += w_b * scattered;
             mean[2 * band] += w_a * m;
@@ -236,6 +323,31 @@ void ArrivingLight::shares(ZoneId group, std::span<const double> weights, Point 
         const double m_a = mean[2 * band], m_b = mean[2 * band + 1];
         at_a[band] = m_a > 0.0 ? at_a[band] / m_a : 1.0;
         at_b[band] = m_b > 0.0 ? at_b[band] / m_b : 1.0;
+    }
+}
+
+void ArrivingLight::beyond(mesh::FacetId facet, mesh::Side side, Point x,
+                           std::span<double> more) const {
+    std::ranges::fill(more, 0.0);
+    if (order_ == 0) return;
+    const auto& forest = s_.forest;
+    PatchId patch = mesh::root_patch(facet, side);
+    while (places_.patch_groups[patch.value] == none) {
+        const auto& node = forest[patch];
+        if (forest.is_leaf(patch)) return;
+        const bool second = glm::dot(node.plane_normal, x) + node.plane_offset > 0.0;
+        patch = PatchId(node.first_child.value + (second ? 1ull : 0ull));
+    }
+    std::array<Point, 3> p;
+    for (int k = 0; k < 3; ++k) p[k] = forest.point(forest[patch].corners[k]);
+    const Direction across = glm::cross(p[1] - p[0], p[2] - p[0]);
+    const double square = glm::dot(across, across);
+    const auto& corners = places_.patch_corners[places_.patch_groups[patch.value]];
+    for (int k = 0; k < 3; ++k) {
+        const Point &q = p[(k + 1) % 3], &r = p[(k + 2) % 3];
+        const double w = std::clamp(glm::dot(glm::cross(q - x, r - x), across) / square, 0.0, 1.0);
+        for (std::size_t b = 0; b < bands_; ++b)
+            more[b] += w * beyond_[(corners[k] - places_.in_media) * bands_ + b];
     }
 }
 

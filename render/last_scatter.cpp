@@ -1,7 +1,9 @@
 #include "render/last_scatter.h"
 
+#include <tbb/global_control.h>
+
 #include <algorithm>
-#include <numbers>
+#include <optional>
 
 #include "mesh/entry.h"
 #include "radiosity/direct_light.h"
@@ -25,42 +27,20 @@ constexpr std::size_t stratified = 8;  // samples that share a net
 constexpr double widest_part = 0.15;
 constexpr double hidden = 1e-9;  // transmittance behind which nothing shows
 
-// The enclosure with extinction as it is in place of the reduced one.
-radiosity::Enclosure with_whole_extinction(const radiosity::Enclosure& reduced) {
-    radiosity::Enclosure e = reduced;
-    for (auto& medium : e.media)
-        for (std::size_t b = 0; b < e.bands; ++b) {
-            if (medium.scattering.empty() || !(medium.extinction[b] > 0.0)) continue;
-            const double whole = medium.absorption[b] + medium.scattering[b];
-            if (!medium.varying.empty()) medium.varying[b].factor *= whole / medium.extinction[b];
-            medium.extinction[b] = whole;
-        }
-    return e;
-}
-
-bool is_reduced(const radiosity::Enclosure& e) {
-    return std::ranges::any_of(e.media, [](const auto& medium) {
-        return medium.phase.kind == radiosity::PhaseKind::henyey_greenstein &&
-               medium.phase.asymmetry != 0.0;
-    });
-}
-
 class LastScatter {
   public:
-    LastScatter(const radiosity::Solution& solution, const Camera& camera, double direct_tolerance)
+    LastScatter(const radiosity::Solution& solution, const Camera& camera, double direct_tolerance,
+                const radiosity::ProgressCallback& progress)
         : s_(solution),
           e_(*solution.enclosure),
-          whole_(with_whole_extinction(e_)),
           bands_(e_.bands),
           eye_(camera.eye),
           eye_tet_(tet_of_eye(e_, camera)),
           seen_(solution, direct_tolerance),
-          media_(e_),
           lights_(e_),
-          arriving_(solution),
-          light_(whole_, {.emitters = closed_form()}),
-          reduced_light_(e_, {.emitters = closed_form()}),
-          reduced_(is_reduced(e_)),
+          arriving_(solution, {}, progress),
+          media_(arriving_.media()),
+          light_(arriving_.whole(), {.emitters = closed_form()}),
           points_(stratified) {}
 
     void sample(mesh::Ray ray, const SampleAt& at, RandomNumbers& random, Seen& seen) const {
@@ -70,17 +50,20 @@ class LastScatter {
         ray.origin += entry.distance * ray.direction;
         Way& way = this->way();
         way.passed.clear();
+        way.held.clear();
         way.weights.resize(e_.media.size());
         for (std::uint32_t m = 0; m < e_.media.size(); ++m)
             if (!e_.media[m].phase.isotropic()) arriving_.weigh(m, ray.direction, way.weights[m]);
         const auto end =
             mesh::walk(e_.mesh, ray, {entry.tet}, [&](TetId tet, double in, double out) {
                 if (e_.solid(tet) || e_.medium_of(tet) == none) return true;
-                way.passed.push_back({tet, {e_.medium_of(tet), in, out}});
                 return cross(ray, tet, in, out, seen);
             });
         single(ray, points_(at.within, radiosity::hash_seed(at.seed, 1)), random, seen);
-        seen_.arrive(ray, end, entry.distance, seen);
+        if (arriving_.order() == 0 || end.arrival != mesh::Arrival::struck)
+            seen_.arrive(ray, end, entry.distance, seen);
+        else
+            strike(ray, end, entry.distance, seen);
     }
 
   private:
@@ -93,7 +76,8 @@ class LastScatter {
         std::vector<Passed> passed;
         std::vector<Stretch> stretches;
         std::vector<std::vector<double>> weights;  // of phase functions, by medium
-        std::vector<double> at_in, at_out, scattered, forwards, transmittance, shares;
+        std::vector<double> held;  // Ω ∫ Φ L^A dω of the leaves at both ends, [2 * band + end]
+        std::vector<double> at_in, at_out, scattered, transmittance, shares;
     };
     using Numbers = std::array<double, radiosity::point_set_dimensions>;
 
@@ -106,14 +90,7 @@ class LastScatter {
         seen.radiance[part * bands_ + band] += value;
     }
 
-    // e by the extinction as it is [W/m^2/sr].
-    double emission_of(ZoneId zone, std::uint32_t medium, std::size_t band) const {
-        const double whole = whole_.media[medium].extinction[band];
-        if (!(whole > 0.0)) return 0.0;
-        return radiosity::emission_of(s_, zone, band) * e_.media[medium].extinction[band] / whole;
-    }
-
-    // What the zones of a tet emit and scatter for the second time or more.
+    // What the zones of a tet emit and scatter, direct light as its leaves hold it.
     bool cross(const mesh::Ray& ray, TetId tet, double t_in, double t_out, Seen& seen) const {
         if (e_.media[e_.medium_of(tet)].phase.isotropic())
             return leaves(ray, mesh::root_zone(tet), t_in, t_out, {}, seen);
@@ -146,10 +123,12 @@ class LastScatter {
     bool leaves(const mesh::Ray& ray, ZoneId below, double t_in, double t_out, const Turned& turned,
                 Seen& seen) const {
         const std::uint32_t medium = radiosity::medium_of(e_, s_.forest, below);
-        const auto& optics = whole_.media[medium];
+        const auto& optics = arriving_.whole().media[medium];
         const auto leaf = [&](ZoneId zone, double in, double out) {
             const Point a = ray.origin + in * ray.direction, b = ray.origin + out * ray.direction;
             double most = 0.0;
+            Way& own = this->way();
+            own.passed.push_back({s_.forest.base_tet(zone), {medium, in, out}});
             radiosity::SegmentWeights w{};
             radiosity::SegmentOfBands segment(ray.origin, ray.direction, in, out);
             for (std::size_t k = 0; k < bands_; ++k) {
@@ -158,7 +137,7 @@ class LastScatter {
                 else if (k == 0 || optics.extinction[k] != optics.extinction[k - 1])
                     w = radiosity::segment_weights(optics.extinction[k] * (out - in));
                 double& transmittance = seen.transmittance[k];
-                const double emitted = emission_of(zone, medium, k);
+                const double emitted = emission_of_whole(s_, arriving_.whole(), zone, medium, k);
                 const double back = media_.given_back(medium, k);
                 const double turning = media_.albedo(medium, k) - back;
                 const radiosity::Affine& h = s_.indirect.at(zone, k);
@@ -167,6 +146,12 @@ class LastScatter {
                 add(seen, emission, k, transmittance * (w.front + w.back) * emitted);
                 add(seen, multiple_scattering, k,
                     transmittance * (w.front * front + w.back * behind));  // (58)
+                const double once = single_of(zone, medium, k, ray.direction);
+                const radiosity::Affine& h_a = s_.direct.at(zone, k);
+                const double first = once * std::max(0.0, h_a.at(a));
+                const double last = once * std::max(0.0, h_a.at(b));
+                own.held.insert(own.held.end(), {first, last});
+                add(seen, single_scattering, k, transmittance * (w.front * first + w.back * last));
                 transmittance *= w.transmittance;
                 most = std::max(most, transmittance);
             }
@@ -175,7 +160,15 @@ class LastScatter {
         return mesh::descend(s_.forest, below, ray, t_in, t_out, mesh::at_leaves, leaf);
     }
 
-    // Direct light scattered once, from two places on the ray.
+    // s^A of a leaf (61).
+    double single_of(ZoneId leaf, std::uint32_t medium, std::size_t band, Direction ray) const {
+        return arriving_.sources()
+                   ? arriving_.sources()->direct(leaf, band, ray, Coefficients::whole)
+                   : media_.albedo(medium, band);
+    }
+
+    // What direct light scattered once departs by from what the leaves hold, from two places on the
+    // ray.
     void single(const mesh::Ray& ray, const Numbers& u, RandomNumbers& random, Seen& seen) const {
         Way& way = this->way();
         if (way.passed.empty() || light_.empty()) return;
@@ -217,32 +210,53 @@ class LastScatter {
             way.passed.begin(), way.passed.end(), t,
             [](const Passed& p, double distance) { return p.stretch.end < distance; });
         if (at == way.passed.end() || t < at->stretch.begin || !(weight > 0.0)) return;
-        const std::uint32_t medium = at->stretch.medium;
+        const auto& [medium, begin, end] = at->stretch;
         const Point x = ray.at(t);
-        scatter(light_, x, at->tet, ray.direction, way.scattered);
-        const bool turned = reduced_;
-        if (turned) scatter(reduced_light_, x, at->tet, ray.direction, way.forwards);
+        scatter(x, at->tet, ray.direction, way.scattered);
         way.transmittance.resize(bands_);
         media_.transmittance(ray, t, way.transmittance);
+        const double* held = &way.held[2 * bands_ * std::size_t(at - way.passed.begin())];
+        const double share = (t - begin) / (end - begin);
         for (std::size_t b = 0; b < bands_; ++b) {
-            const double kept = weight * way.transmittance[b] * media_.extinction(medium, b, x);
-            add(seen, single_scattering, b, kept * way.scattered[b]);
-            if (turned)
-                add(seen, multiple_scattering, b, kept * (way.forwards[b] - way.scattered[b]));
+            // As the closed form has it: linear between the leaf's two faces.
+            const double in_leaf = (1.0 - share) * held[2 * b] + share * held[2 * b + 1];
+            add(seen, single_scattering, b,
+                weight * way.transmittance[b] * media_.extinction(medium, b, x) *
+                    (way.scattered[b] - in_leaf));
+        }
+    }
+
+    // What the patch at the ray's end sends out: direct light that whole extinction leaves, anew.
+    void strike(const mesh::Ray& ray, const mesh::WalkEnd& end, double before, Seen& seen) const {
+        seen.depth = before + end.distance;
+        const auto side = e_.facet_sides[end.facet.value][end.side == mesh::Side::back];
+        if (side == none) return;
+        const Point x = ray.origin + end.distance * ray.direction;
+        const auto leaf = s_.forest.leaf_at(mesh::root_patch(end.facet, end.side), x);
+        thread_local std::vector<double> direct, more;
+        direct.resize(bands_);
+        more.resize(bands_);
+        light_.at_patch(x, radiosity::normal_of(s_.forest, leaf), end.tet, direct);
+        arriving_.beyond(end.facet, end.side, x, more);
+        for (std::size_t b = 0; b < bands_; ++b) {
+            const double t = seen.transmittance[b], rho = e_.sides[side].reflectance[b];
+            const double indirect = std::max(0.0, s_.indirect.at(leaf, b).at(x) + more[b]);
+            add(seen, emission, b, t * radiosity::emission_of(s_, leaf, b));
+            add(seen, surfaces_direct, b, t * rho * direct[b]);
+            add(seen, surfaces_indirect, b, t * rho * indirect);  // (62)
         }
     }
 
     // Ω ∫ Φ τ L^A dω, of a ray's direction from the eye [W/m^2/sr].
-    void scatter(const radiosity::DirectLight& light, Point x, TetId tet, Direction ray,
-                 std::vector<double>& scattered) const {
+    void scatter(Point x, TetId tet, Direction ray, std::vector<double>& scattered) const {
         scattered.assign(bands_, 0.0);
         const std::uint32_t medium = e_.medium_of(tet);
         if (e_.media[medium].phase.isotropic()) {
-            light.at_zone(x, tet, scattered);
+            light_.at_zone(x, tet, scattered);
             for (std::size_t b = 0; b < bands_; ++b) scattered[b] *= media_.albedo(medium, b);
             return;
         }
-        light.visit_zone(
+        light_.visit_zone(
             x, tet, widest_part, [&](Direction towards, std::span<const double> irradiance) {
                 const double cosine = glm::dot(ray, towards);
                 for (std::size_t b = 0; b < bands_; ++b)
@@ -252,16 +266,14 @@ class LastScatter {
 
     const radiosity::Solution& s_;
     const radiosity::Enclosure& e_;
-    const radiosity::Enclosure whole_;
     std::size_t bands_;
     Point eye_;
     TetId eye_tet_;
     SeenSolution seen_;
-    PathMedia media_;
     PathLights lights_;
     ArrivingLight arriving_;
-    radiosity::DirectLight light_, reduced_light_;  // by extinction as it is, and as it was solved
-    bool reduced_;
+    const PathMedia& media_;
+    radiosity::DirectLight light_;  // by extinction as it is
     radiosity::PointSet points_;
 };
 
@@ -269,7 +281,10 @@ class LastScatter {
 
 Image last_scatter(const radiosity::Solution& solution, const Camera& camera,
                    const RenderOptions& options, const radiosity::ProgressCallback& progress) {
-    const LastScatter picture(solution, camera, options.direct_tolerance);
+    std::optional<tbb::global_control> threads;
+    if (options.threads > 0)
+        threads.emplace(tbb::global_control::max_allowed_parallelism, options.threads);
+    const LastScatter picture(solution, camera, options.direct_tolerance, progress);
     const Sampler sampler = [&](const mesh::Ray& ray, const SampleAt& at, RandomNumbers& random,
                                 Seen& seen) { picture.sample(ray, at, random, seen); };
     return sampled_picture(*solution.enclosure, camera, options, {.batch = stratified}, sampler,

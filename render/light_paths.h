@@ -25,10 +25,16 @@ struct PathEnding {
     // reflection by a Lambertian surface. At least 1.
     std::size_t scatterings = 1;
     // Incident radiance straight from lights on a surface, cosine-weighted [W/m²/sr].
-    std::function<void(const PathEnd&, std::span<double>)> direct;
+    std::function<void(const PathEnd&, Coefficients, std::span<double>)> direct;
     // Radiance from a direction, lights that count as direct apart [W/m²/sr].
     std::function<void(const PathEnd&, Direction, std::span<double>)> gather;
     bool emitters_are_direct = true;
+    // The path goes on from the first Lambertian surface that it meets without a scattering, as far
+    // as `scatterings` of it, to the next surface: for media that do not scatter evenly.
+    bool through_media = false;
+    // All that arrives on that surface, as the solution's elements hold it, cosine-weighted
+    // [W/m²/sr].
+    std::function<void(const PathEnd&, std::span<double>)> incident;
 };
 
 // Purpose: an unbiased sample of the radiance along a ray, by its parts.
@@ -42,9 +48,10 @@ struct PathEnding {
 //   Emission of media is added along every ray in closed form.
 // Not found: what a mirror throws of point lights and of suns without a diameter (no path meets
 //   them); a rough one does.
-// With an ending, paths stop at the first Lambertian surface, or at its last scattering: surfaces
-//   take direct light and one ray of the rest from it; media look for lights through reduced
-//   extinction, as it does.
+// With an ending, paths stop at the first Lambertian surface (or the second, see `through_media`),
+// or
+//   at its last scattering: surfaces take direct light and one ray of the rest from it; media look
+//   for lights through reduced extinction, as it does.
 // Source: Kajiya (1986); Veach & Guibas (1995); Kulla & Fajardo (2012).
 class LightPaths {
   public:

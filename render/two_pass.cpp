@@ -10,6 +10,7 @@
 #include "render/equiangular.h"
 #include "render/light_paths.h"
 #include "render/sampled_picture.h"
+#include "render/turned_sources.h"
 
 namespace tyndall::render {
 namespace {
@@ -32,8 +33,10 @@ class SolvedLight {
     SolvedLight(const radiosity::Solution& solution, const Camera& camera)
         : s_(solution),
           e_(*solution.enclosure),
+          whole_(with_whole_extinction(e_)),
           eye_(mesh::locate(e_.mesh, camera.eye)),
           light_(e_, {.emitters = closed_form()}),
+          whole_light_(whole_, {.emitters = closed_form()}),
           gathered_(e_, s_.forest, radiosity::reflected_sources(s_), gather_detail) {}
 
     const radiosity::Solution& solution() const { return s_; }
@@ -45,8 +48,17 @@ class SolvedLight {
     TetId tet_at(Point x) const { return mesh::locate(e_.mesh, x, eye_.valid() ? eye_ : TetId(0)); }
 
     // H^A on a surface.
-    void direct(const PathEnd& at, std::span<double> incident) const {
-        light_.at_patch(at.x, at.normal, start_of(at).tet, incident);
+    void direct(const PathEnd& at, Coefficients on_way, std::span<double> incident) const {
+        const auto& light = on_way == Coefficients::whole ? whole_light_ : light_;
+        light.at_patch(at.x, at.normal, start_of(at).tet, incident);
+    }
+
+    // H^A and H^I on a surface, of its leaf.
+    void incident(const PathEnd& at, std::span<double> incident) const {
+        const PatchId leaf = s_.forest.leaf_at(mesh::root_patch(at.facet, at.side), at.x);
+        for (std::size_t b = 0; b < e_.bands; ++b)
+            incident[b] = std::max(0.0, s_.direct.at(leaf, b).at(at.x)) +
+                          std::max(0.0, s_.indirect.at(leaf, b).at(at.x));
     }
 
     // All but direct light, from a direction.
@@ -65,8 +77,9 @@ class SolvedLight {
 
     const radiosity::Solution& s_;
     const radiosity::Enclosure& e_;
+    const radiosity::Enclosure whole_;
     TetId eye_;
-    radiosity::DirectLight light_;
+    radiosity::DirectLight light_, whole_light_;  // by the solve's extinction, and as it is
     radiosity::GatherScene gathered_;
 };
 
@@ -237,7 +250,7 @@ class EvenScene {
             for (std::size_t b = 0; b < bands_; ++b)
                 add(seen, part, b, seen.transmittance[b] * optics.reflectance[b] * values[b]);
         };
-        solved_.direct(at, values);
+        solved_.direct(at, Coefficients::whole, values);
         reflect(surfaces_direct);
         solved_.gather(at, radiosity::cosine_direction(at.normal, u[3], u[4]), values);
         reflect(surfaces_indirect);
@@ -276,7 +289,11 @@ Image two_pass(const radiosity::Solution& solution, const Camera& camera,
                          : even                  ? 1
                                                  : scatterings_of_lobes;
     ending.emitters_are_direct = solved.closed_form();
-    ending.direct = [&](const PathEnd& at, std::span<double> h) { solved.direct(at, h); };
+    ending.through_media = !even;
+    ending.direct = [&](const PathEnd& at, Coefficients on_way, std::span<double> h) {
+        solved.direct(at, on_way, h);
+    };
+    ending.incident = [&](const PathEnd& at, std::span<double> h) { solved.incident(at, h); };
     ending.gather = [&](const PathEnd& at, Direction from, std::span<double> radiance) {
         solved.gather(at, from, radiance);
     };
