@@ -1,0 +1,213 @@
+#include "view/view_page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <nlohmann/json.hpp>
+
+#include "mesh/input_error.h"
+#include "radiosity/report_json.h"
+#include "render/line_of_sight.h"
+#include "render/tone_map.h"
+#include "view/packed_arrays.h"
+#include "view/page_sources.h"
+#include "view/viewer_arrays.h"
+
+namespace tyndall::view {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using mesh::Direction;
+using mesh::Point;
+using radiosity::PictureProjection;
+using render::Camera;
+
+constexpr std::size_t exposure_width = 96;  // pixels of a picture that the exposure is taken from
+
+Json vector_json(Direction v) {
+    return {v.x, v.y, v.z};
+}
+
+void refuse_bodies(const radiosity::Enclosure& enclosure) {
+    if (enclosure.mesh.bodies.empty()) return;
+    throw mesh::InputError(
+        "the solution is a frame of an animation in which surfaces move through the mesh without "
+        "being cut into it, and view.html cannot draw those. Make a picture by tyndall render, or "
+        "solve the scene of this frame by itself.");
+}
+
+// The radiance shown as white, as a picture of that camera would have it.
+double white_of(const radiosity::Solution& solution, const Camera& camera,
+                const PageOptions& options) {
+    const auto& tone = options.tone_map;
+    if (tone.white) return *tone.white / std::exp2(tone.exposure);
+    Camera small = camera;
+    small.width = std::min(exposure_width, camera.width);
+    small.height = std::max<std::size_t>(1, camera.height * small.width / camera.width);
+    if (camera.projection == PictureProjection::panorama) small.height = small.width / 2;
+    if (camera.projection == PictureProjection::panorama) small.width = 2 * small.height;
+    const auto image =
+        render::line_of_sight(solution, small, {.samples = 4, .threads = options.threads});
+    return render::automatic_white(image, render::select_layer(image, "")) /
+           std::exp2(tone.exposure);
+}
+
+// Looks in from a corner of the hull.
+Camera corner_camera(const radiosity::Enclosure& enclosure) {
+    const Point low = enclosure.mesh.hull_min, high = enclosure.mesh.hull_max;
+    Camera camera;
+    camera.name = "corner";
+    camera.eye = low + glm::dvec3(0.92, 0.08, 0.6) * (high - low);
+    camera.target = low + glm::dvec3(0.3, 0.7, 0.45) * (high - low);
+    camera.fov_x = 1.3;
+    return camera;
+}
+
+// Of another projection than the plane perspective one the eye and the direction are kept.
+Json camera_json(const radiosity::Solution& solution, const Camera& camera, Point origin,
+                 const PageOptions& options) {
+    const auto view = camera.view();
+    const bool plain = camera.projection == PictureProjection::perspective;
+    const Direction up = camera.up;
+    const double aspect = plain ? view.half_x / view.half_y : 4.0 / 3.0;
+    const double half_x = plain ? view.half_x : 0.75;
+    const Direction forward = plain ? view.forward : glm::normalize(camera.target - camera.eye);
+    return {{"name", camera.name},
+            {"eye", vector_json(view.eye - origin)},
+            {"forward", vector_json(forward)},
+            {"up", vector_json(up)},
+            {"half_x", half_x},
+            {"half_y", half_x / aspect},
+            {"white", white_of(solution, camera, options)},
+            {"perspective", plain}};
+}
+
+Json cameras_json(const radiosity::Solution& solution, Point origin, const PageOptions& options) {
+    Json cameras = Json::array();
+    auto list = options.cameras;
+    if (list.empty()) list.push_back(corner_camera(*solution.enclosure));
+    for (const auto& camera : list)
+        cameras.push_back(camera_json(solution, camera, origin, options));
+    return cameras;
+}
+
+Json names_json(const radiosity::Enclosure& enclosure) {
+    Json sides = Json::array(), media = Json::array();
+    for (const auto& side : enclosure.sides)
+        sides.push_back({{"name", side.name}, {"reflectance", side.reflectance}});
+    for (const auto& medium : enclosure.media)
+        media.push_back({{"name", medium.name}, {"albedo", medium.albedo}});
+    return {{"sides", sides}, {"media", media}};
+}
+
+PackedArrays pack(const ViewerArrays& a) {
+    PackedArrays packed;
+    packed.add("planes", a.planes);
+    packed.add("zone_planes", a.zone_planes);
+    packed.add("zone_ropes", a.zone_ropes);
+    packed.add("zone_row", a.zone_row);
+    packed.add("zone_medium", a.zone_medium);
+    packed.add("zone_level", a.zone_level);
+    packed.add("zone_error", a.zone_error);
+    packed.add("zone_volume", a.zone_volume);
+    packed.add("zone_direct", a.zone_direct);
+    packed.add("zone_indirect", a.zone_indirect);
+    packed.add("zone_extinction", a.zone_extinction);
+    packed.add("nodes", a.nodes);
+    packed.add("walls", a.walls);
+    packed.add("patch_row", a.patch_row);
+    packed.add("patch_side", a.patch_side);
+    packed.add("patch_level", a.patch_level);
+    packed.add("patch_error", a.patch_error);
+    packed.add("patch_area", a.patch_area);
+    packed.add("patch_indirect", a.patch_indirect);
+    packed.add("piece_patch", a.piece_patch);
+    packed.add("piece_direct", a.piece_direct);
+    packed.add("rows", a.rows);
+    packed.add("hull_corners", a.hull_corners);
+    packed.add("hull_zones", a.hull_zones);
+    return packed;
+}
+
+std::size_t first_camera(const PageOptions& options) {
+    for (std::size_t k = 0; k < options.cameras.size(); ++k)
+        if (options.cameras[k].name == options.view_camera) return k;
+    return 0;
+}
+
+Json meta_json(const radiosity::Solution& solution, const ViewerArrays& arrays,
+               const SharpenedPatches& patches, const PackedArrays& packed,
+               const PageOptions& options) {
+    const auto& e = *solution.enclosure;
+    Json meta{{"title", options.title},
+              {"version", TYNDALL_VERSION},
+              {"bands", arrays.bands},
+              {"origin", vector_json(arrays.origin)},
+              {"hull_min", vector_json(e.mesh.hull_min - arrays.origin)},
+              {"hull_max", vector_json(e.mesh.hull_max - arrays.origin)},
+              {"diagonal", glm::length(e.mesh.hull_max - e.mesh.hull_min)},
+              {"environment", e.environment},
+              {"curve", static_cast<int>(options.tone_map.curve)},
+              {"camera", first_camera(options)},
+              {"cameras", cameras_json(solution, arrays.origin, options)},
+              {"names", names_json(e)},
+              {"pieces_made", patches.made},
+              {"pieces_left", patches.left},
+              {"arrays", Json::array()}};
+    for (const auto& entry : packed.entries())
+        meta["arrays"].push_back({entry.name, std::string(1, entry.type), entry.count});
+    meta["report"] = Json::parse(
+        options.report.empty()
+            ? radiosity::report_to_json(solution.report, radiosity::Costs::left_out)
+            : options.report);
+    return meta;
+}
+
+// Text within a script element: nothing in it may look like its end.
+std::string in_script(std::string text) {
+    for (std::size_t at = text.find("</"); at != std::string::npos; at = text.find("</", at + 3))
+        text.insert(at + 1, "\\");
+    return text;
+}
+
+std::string in_html(const std::string& text) {
+    std::string result;
+    for (const char c : text)
+        result += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
+    return result;
+}
+
+// The page with {{name}} replaced by what `text_of` says.
+template <class TextOf>
+std::string filled(std::string_view page, TextOf&& text_of) {
+    std::string result;
+    for (std::size_t at = 0;;) {
+        const std::size_t begin = page.find("{{", at), end = page.find("}}", begin);
+        if (begin == std::string_view::npos || end == std::string_view::npos)
+            return result += page.substr(at);
+        result += page.substr(at, begin - at);
+        result += text_of(page.substr(begin + 2, end - begin - 2));
+        at = end + 2;
+    }
+}
+
+}  // namespace
+
+std::string view_page(const radiosity::Solution& solution, const PageOptions& options) {
+    refuse_bodies(*solution.enclosure);
+    const SharpenedPatches patches = sharpen_patches(solution, options.sharpen);
+    const ViewerArrays arrays = viewer_arrays(solution, patches);
+    const PackedArrays packed = pack(arrays);
+    const auto meta = meta_json(solution, arrays, patches, packed, options);
+    return filled(page_source("page.html"), [&](std::string_view name) -> std::string {
+        if (name == "title") return in_html(options.title);
+        if (name == "meta")
+            return in_script(meta.dump(-1, ' ', false, Json::error_handler_t::replace));
+        if (name == "arrays") return packed.text();
+        return std::string(page_source(name));
+    });
+}
+
+}  // namespace tyndall::view
