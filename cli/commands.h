@@ -63,6 +63,9 @@ void add_solve_command(Shell& shell);
 // render_command.cpp
 void add_render_command(Shell& shell);
 
+// view_command.cpp
+void add_view_command(Shell& shell);
+
 // probe_command.cpp
 void add_probe_command(Shell& shell);
 

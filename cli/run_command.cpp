@@ -5,6 +5,7 @@
 #include "cli/passes.h"
 #include "cli/preview.h"
 #include "cli/run_report.h"
+#include "cli/view_file.h"
 #include "mesh/file_bytes.h"
 #include "radiosity/resources.h"
 #include "radiosity/solution_file.h"
@@ -19,6 +20,7 @@ struct RunOptions {
     std::string scene, out;
     PassChoice passes{};
     PreviewChoice preview{};
+    bool no_view = false;
 };
 
 enum class Picture { wanted, not_wanted };
@@ -40,6 +42,12 @@ std::string write_picture(const SceneFile& file, const radiosity::Solution& solu
     facts.written.push_back(folder / "image.png");
     preview.show_last(image);
     return "";
+}
+
+// A file of an earlier run that this one did not replace.
+void warn_of_old(const fs::path& folder, const std::string& name, radiosity::Report& report) {
+    if (fs::exists(folder / name))
+        report.warnings.push_back(name + " in '" + folder.string() + "' is of an earlier run.");
 }
 
 int run(const RunOptions& options, const CommonFlags& flags, Picture picture) {
@@ -64,12 +72,19 @@ int run(const RunOptions& options, const CommonFlags& flags, Picture picture) {
         if (!missing.empty()) solution.report.warnings.push_back(missing);
     }
     const bool pictured = facts.written.size() > 1;
-    if (!pictured && fs::exists(folder / "image.exr"))
-        solution.report.warnings.push_back("image.exr in '" + folder.string() +
-                                           "' is of an earlier run.");
+    const bool viewed = picture == Picture::wanted && !options.no_view && !progress.stopped();
+    if (!pictured) warn_of_old(folder, "image.exr", solution.report);
+    if (!viewed) warn_of_old(folder, "view.html", solution.report);
     facts.written.push_back(folder / "report.json");
     const auto report = report_text(solution.report, facts);
     mesh::write_file(folder / "report.json", report);
+    if (viewed) {
+        const ViewSettings settings{file.scene.title, file.cameras, file.view_camera, file.render,
+                                    file.tone_map};
+        write_view(folder / "view.html", solution, settings, report,
+                   fs::path(options.scene).stem().string());
+        facts.written.push_back(folder / "view.html");
+    }
     progress.clear();
     if (flags.json)
         write_output(report);
@@ -95,6 +110,7 @@ void add(Shell& shell, const char* name, const char* purpose, const char* exampl
                 "Take the mesh of this pass (OUT/passes/NN.vtkhdf) or solution as it is")
         .excludes(resume);
     if (picture == Picture::not_wanted) return;
+    command.flag("--no-view", options->no_view, "Write no view.html");
     command.flag("--preview", options->preview.wanted,
                  "A picture in DIR/preview.png as the solution evolves: surfaces at once, the "
                  "medium as soon as it is solved");

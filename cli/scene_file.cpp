@@ -201,8 +201,9 @@ ViewSettings read_view_settings(const std::string& toml,
     Names cameras("camera");
     read_cameras(root, cameras, file);
     const Settings settings = read_settings(root);
-    return {std::move(file.cameras), view_camera(root, settings.camera, cameras), settings.render,
-            settings.tone_map};
+    const std::string title = root.has("title") ? root.text("title") : "";
+    return {title, std::move(file.cameras), view_camera(root, settings.camera, cameras),
+            settings.render, settings.tone_map};
 }
 
 std::string scene_file_reference() {

@@ -44,6 +44,7 @@ SceneFile read_scene_frame(const std::filesystem::path& path,
 
 // What of a scene a picture depends on, beyond the solution.
 struct ViewSettings {
+    std::string title;
     std::vector<render::Camera> cameras;
     std::string view_camera;  // as in SceneFile
     render::RenderOptions render;

@@ -25,7 +25,7 @@ constexpr std::size_t batch = 1024;  // pieces bisected at a time
 // A triangle that may be bisected, with H^A at its corners and at the middles opposite them.
 struct Piece {
     PatchId id;
-    PatchId patch;  // of the solution
+    PatchId patch;                         // of the solution
     std::vector<double> corners, middles;  // [3 × bands]
     double gain = 0.0;                     // error times area: who goes first
 };
@@ -67,8 +67,7 @@ class Sharpener {
         if (light_.empty() || !(mean_ > 0.0)) return pieces;
         for (std::size_t p = 0; p < s_.forest.patch_count(); ++p) {
             const PatchId patch(p);
-            if (!s_.forest.is_leaf(patch) ||
-                radiosity::side_of(e_, s_.forest, patch) == none ||
+            if (!s_.forest.is_leaf(patch) || radiosity::side_of(e_, s_.forest, patch) == none ||
                 !(brightest(patch) * s_.patch_direct_error[p] > 0.5 * options_.tolerance * mean_))
                 continue;
             pieces.push_back({patch, patch, {}, {}});
@@ -87,8 +86,7 @@ class Sharpener {
     void light_at(PatchId patch, Point x, double* incident) const {
         x += inward * (s_.forest.centroid(patch) - x);
         const auto before = mesh::tet_before(e_.mesh, s_.forest.base_facet_side(patch), x);
-        light_.at_patch(x, radiosity::normal_of(s_.forest, patch), before,
-                        {incident, e_.bands});
+        light_.at_patch(x, radiosity::normal_of(s_.forest, patch), before, {incident, e_.bands});
     }
 
     Point corner(const Piece& piece, int k) const {
@@ -106,7 +104,8 @@ class Sharpener {
             }
             piece.middles.resize(3 * e_.bands);
             for (int k = 0; k < 3; ++k)
-                light_at(piece.patch, 0.5 * (corner(piece, (k + 1) % 3) + corner(piece, (k + 2) % 3)),
+                light_at(piece.patch,
+                         0.5 * (corner(piece, (k + 1) % 3) + corner(piece, (k + 2) % 3)),
                          &piece.middles[k * e_.bands]);
             weigh(piece);
             for (std::size_t b = 0; b < e_.bands; ++b)
@@ -129,8 +128,8 @@ class Sharpener {
             }
         const auto& node = result_.forest[piece.id];
         if (node.longest_edge > coarse * size_)
-            error = std::max(error, 0.1 * brightest(piece.patch) *
-                                        s_.patch_direct_error[piece.patch.value]);
+            error = std::max(
+                error, 0.1 * brightest(piece.patch) * s_.patch_direct_error[piece.patch.value]);
         const bool wanted = error > options_.tolerance * mean_ &&
                             node.longest_edge > options_.smallest_edge * size_;
         piece.gain = wanted ? error * result_.forest.area(piece.id) : 0.0;
@@ -143,8 +142,8 @@ class Sharpener {
 
     std::vector<Piece> bisect_best() {
         std::vector<Piece> children;
-        const std::size_t count = std::min(
-            {batch, waiting_.size(), options_.most_pieces - result_.made});
+        const std::size_t count =
+            std::min({batch, waiting_.size(), options_.most_pieces - result_.made});
         for (std::size_t n = 0; n < count; ++n) {
             const Piece piece = waiting_.top();
             waiting_.pop();
@@ -160,8 +159,10 @@ class Sharpener {
         const PatchId first = result_.forest.bisect(piece.id, i, j);
         const int apex = 3 - i - j;
         for (const int replaced : {j, i}) {
-            Piece child{replaced == j ? first : PatchId(first.value + 1ull), piece.patch,
-                        piece.corners, {}};
+            Piece child{replaced == j ? first : PatchId(first.value + 1ull),
+                        piece.patch,
+                        piece.corners,
+                        {}};
             for (std::size_t b = 0; b < e_.bands; ++b)
                 child.corners[replaced * e_.bands + b] = piece.middles[apex * e_.bands + b];
             children.push_back(std::move(child));

@@ -11,9 +11,9 @@
 namespace tyndall::view {
 
 struct SharpenOptions {
-    double tolerance = 0.004;            // of a patch's radiance, over the surfaces' mean [-]
-    std::size_t most_pieces = 30000;    // made
-    double smallest_edge = 0.0005;  // of the hull's diagonal: no finer [-]
+    double tolerance = 0.004;         // of a patch's radiance, over the surfaces' mean [-]
+    std::size_t most_pieces = 30000;  // made
+    double smallest_edge = 0.0005;    // of the hull's diagonal: no finer [-]
 };
 
 // The forest of the solution with more patches, and H^A of each [W/m^2/sr]; zones are the same.

@@ -158,10 +158,10 @@ Json meta_json(const radiosity::Solution& solution, const ViewerArrays& arrays,
               {"arrays", Json::array()}};
     for (const auto& entry : packed.entries())
         meta["arrays"].push_back({entry.name, std::string(1, entry.type), entry.count});
-    meta["report"] = Json::parse(
-        options.report.empty()
-            ? radiosity::report_to_json(solution.report, radiosity::Costs::left_out)
-            : options.report);
+    meta["report"] =
+        Json::parse(options.report.empty()
+                        ? radiosity::report_to_json(solution.report, radiosity::Costs::left_out)
+                        : options.report);
     return meta;
 }
 

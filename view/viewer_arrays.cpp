@@ -211,7 +211,7 @@ class Packer {
         const TetId tet = s_.forest.base_tet(zone);
         const auto medium = e_.solid(tet) ? none : e_.medium_of(tet);
         a_.zone_medium.push_back(medium == none ? -1 : static_cast<std::int32_t>(medium));
-        a_.zone_row.push_back(medium != none ? row_of(zone, medium)
+        a_.zone_row.push_back(medium != none  ? row_of(zone, medium)
                               : e_.solid(tet) ? solid_inside
                                               : empty_space);
         a_.zone_level.push_back(static_cast<std::int32_t>(s_.forest[zone].level));
