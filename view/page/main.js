@@ -107,7 +107,8 @@ class Page {
     const colours = this.clip() ? Number(by('colours').value) : 0;
     return { layers, medium: by('medium').checked, clip: this.clip(), colours, scale: this.scales[colours],
              white: this.meta.cameras[this.cameraIndex].white / 2 ** this.exposure,
-             curve: CURVES.indexOf(by('curve').value), edges: by('edges').checked };
+             curve: CURVES.indexOf(by('curve').value), edges: by('edges').checked,
+             rays: by('smooth').checked && !colours ? MOST_RAYS : 1 };
   }
 
   cutPlace() {
@@ -167,8 +168,12 @@ class Page {
     by('scale').textContent = look.colours
         ? `Colours: dark blue ${figure(low)} to yellow ${figure(high)}${unit}` : '';
     const shape = JSON.stringify([look.layers, look.medium, look.clip, look.colours]);
-    if (shape === this.shape) this.picture.showAgain(look);
-    else this.moved();
+    if (shape === this.shape) {
+      this.picture.showAgain(look);
+      this.wake();
+    } else {
+      this.moved();
+    }
     this.shape = shape;
     this.keepLink();
   }
@@ -230,7 +235,8 @@ class Page {
   link() {
     const values = { view: this.view.toText(), camera: this.cameraIndex, exposure: this.exposure,
                      curve: by('curve').value, layers: this.look().layers.join(''),
-                     medium: Number(by('medium').checked), edges: Number(by('edges').checked) };
+                     medium: Number(by('medium').checked), edges: Number(by('edges').checked),
+                     smooth: Number(by('smooth').checked) };
     if (by('cut').value)
       Object.assign(values, { cut: by('cut').value, at: by('cut_at').value, colours: by('colours').value,
                               other: Number(by('cut_other').checked) });
@@ -262,6 +268,7 @@ class Page {
       });
     if (has('medium')) by('medium').checked = values.get('medium') !== '0';
     if (has('edges')) by('edges').checked = values.get('edges') === '1';
+    if (has('smooth')) by('smooth').checked = values.get('smooth') !== '0';
     by('cut').value = ['x', 'y', 'z'].includes(values.get('cut')) ? values.get('cut') : '';
     if (has('at')) by('cut_at').value = values.get('at');
     if (/^[0-3]$/.test(values.get('colours'))) by('colours').value = values.get('colours');

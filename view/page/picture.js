@@ -3,7 +3,7 @@
 // a pixel, so that edges become smooth.
 
 const WIDTH = 2048;       // of the tables' textures [texel]
-const MOST_SAMPLES = 16;  // rays a pixel of a picture at rest
+const MOST_RAYS = 16;     // a pixel of a picture at rest
 const FRAME_MS = 40;      // that a frame in motion may take
 const STRIP_MS = 60;      // and a strip of one at rest
 const UNIFORMS = ['zones', 'nodes', 'walls', 'patches', 'pieces', 'rows', 'eye', 'forward', 'right',
@@ -247,7 +247,7 @@ class Picture {
   // The next strip of a picture at rest, from the top; false: it is as good as it gets.
   drawStrip(frame, look) {
     const { width, height } = this.canvas, rest = this.rest;
-    const most = look.colours || !this.adds ? 1 : MOST_SAMPLES;
+    const most = this.adds ? look.rays : 1;
     if (!rest || rest.sample >= most) return false;
     const target = this.target('full', width, height);
     const rows = Math.max(4, Math.floor(STRIP_MS * this.perMs / width));
