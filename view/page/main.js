@@ -205,7 +205,7 @@ class Page {
     if (this.dirty) {
       this.dirty = false;
       this.picture.drawMoving(frame, look);
-      this.drawn = (this.drawn || 0) + 1;
+      this.canvas.dataset.first ||= Math.round(performance.now());  // [ms] since the page was asked for
     } else if (now - this.lastMoved > 150) {
       more = this.picture.drawStrip(frame, look);
       if (!this.kept) this.keepLink();
