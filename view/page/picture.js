@@ -51,7 +51,7 @@ class Picture {
       ['inside', 'light', 'elements', 'scale', 'per_white', 'curve', 'edges']);
     this.uploadTables(tables);
     this.uploadHull(tables);
-    this.perMs = 2000;  // pixels that are drawn in a millisecond, as measured
+    this.perMs = 100;  // pixels that are drawn in a millisecond, as measured; few, to begin with
     this.targets = {};
   }
 
