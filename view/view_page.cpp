@@ -54,14 +54,34 @@ double white_of(const radiosity::Solution& solution, const Camera& camera,
            std::exp2(tone.exposure);
 }
 
-// Looks in from a corner of the hull.
-Camera corner_camera(const radiosity::Enclosure& enclosure) {
-    const Point low = enclosure.mesh.hull_min, high = enclosure.mesh.hull_max;
+Point centroid(const mesh::BaseMesh& mesh, mesh::TetId tet) {
+    Point sum(0.0);
+    for (const auto corner : mesh.tets[tet.value]) sum += 0.25 * mesh.points[corner.value];
+    return sum;
+}
+
+// Stands in the tetrahedron with most room that is not in a solid, and looks to the farthest one.
+Camera roomy_camera(const radiosity::Enclosure& enclosure) {
+    const auto& mesh = enclosure.mesh;
     Camera camera;
-    camera.name = "corner";
-    camera.eye = low + glm::dvec3(0.92, 0.08, 0.6) * (high - low);
-    camera.target = low + glm::dvec3(0.3, 0.7, 0.45) * (high - low);
+    camera.name = "somewhere";
     camera.fov_x = 1.3;
+    double most = 0.0, farthest = 0.0;
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t)
+        if (const mesh::TetId tet(t); !enclosure.solid(tet) && mesh::volume(mesh, tet) > most) {
+            most = mesh::volume(mesh, tet);
+            camera.eye = centroid(mesh, tet);
+        }
+    camera.target = camera.eye + Direction(1.0, 0.0, 0.0);
+    for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+        if (enclosure.solid(mesh::TetId(t))) continue;
+        // Level, so that it is never along `up`.
+        Point there = centroid(mesh, mesh::TetId(t));
+        there.z = camera.eye.z;
+        if (glm::distance(there, camera.eye) <= farthest) continue;
+        farthest = glm::distance(there, camera.eye);
+        camera.target = there;
+    }
     return camera;
 }
 
@@ -87,7 +107,7 @@ Json camera_json(const radiosity::Solution& solution, const Camera& camera, Poin
 Json cameras_json(const radiosity::Solution& solution, Point origin, const PageOptions& options) {
     Json cameras = Json::array();
     auto list = options.cameras;
-    if (list.empty()) list.push_back(corner_camera(*solution.enclosure));
+    if (list.empty()) list.push_back(roomy_camera(*solution.enclosure));
     for (const auto& camera : list)
         cameras.push_back(camera_json(solution, camera, origin, options));
     return cameras;
@@ -166,10 +186,13 @@ Json meta_json(const radiosity::Solution& solution, const ViewerArrays& arrays,
 }
 
 // Text within a script element: nothing in it may look like its end.
-std::string in_script(std::string text) {
-    for (std::size_t at = text.find("</"); at != std::string::npos; at = text.find("</", at + 3))
-        text.insert(at + 1, "\\");
-    return text;
+std::string in_script(const std::string& text) {
+    std::string result;
+    for (const char c : text) {
+        if (c == '/' && !result.empty() && result.back() == '<') result += '\\';
+        result += c;
+    }
+    return result;
 }
 
 std::string in_html(const std::string& text) {

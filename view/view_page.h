@@ -14,7 +14,7 @@ namespace tyndall::view {
 // What a page shows beyond the solution itself.
 struct PageOptions {
     std::string title = "Tyndall";
-    std::vector<render::Camera> cameras;  // none: the page looks at the scene from a corner
+    std::vector<render::Camera> cameras;  // none: the page begins somewhere
     std::string view_camera;              // the one to begin with; "": the first
     render::ToneMapOptions tone_map;
     // A JSON object with the keys of report.json; "": that of the solution.

@@ -154,5 +154,5 @@ TEST_CASE("A page is one file with all in it, the same at any thread count", "[v
     CHECK(count(page, "http") == count(page, "http://www.w3.org/2000/svg"));
     CHECK(count(page, " src=") == 0);
     options.cameras.clear();
-    CHECK(count(view::view_page(slit_solution(), options), "\"name\":\"corner\"") == 1);
+    CHECK(count(view::view_page(slit_solution(), options), "\"name\":\"somewhere\"") == 1);
 }
