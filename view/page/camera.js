@@ -3,14 +3,16 @@
 const add = (a, b, s = 1) => [a[0] + s * b[0], a[1] + s * b[1], a[2] + s * b[2]];
 const scaled = (a, s) => [s * a[0], s * a[1], s * a[2]];
 const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
-                         a[0] * b[1] - a[1] * b[0]];
+const cross =
+    (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 const unit = (a) => scaled(a, 1 / Math.hypot(...a));
 
 const STEEPEST = 1.55;  // [rad]: straight up and down the picture would have no upright
 
 class View {
-  constructor(camera) { this.show(camera); }
+  constructor(camera) {
+    this.show(camera);
+  }
 
   // A camera of the scene: { eye, forward, up, half_x, half_y }, up its own upright.
   show(camera) {
@@ -41,13 +43,18 @@ class View {
     const side = unit(cross(this.forward, this.upright));
     const shape = width / height, own = this.halfX / this.halfY;
     const halfX = shape > own ? this.halfY * shape : this.halfX;
-    return { eye: this.eye, forward: this.forward, right: scaled(side, halfX),
-             up: scaled(cross(side, this.forward), halfX / shape) };
+    return {
+      eye: this.eye,
+      forward: this.forward,
+      right: scaled(side, halfX),
+      up: scaled(cross(side, this.forward), halfX / shape)
+    };
   }
 
   toText() {
     return [...this.eye, ...this.forward, ...this.upright, this.halfX, this.halfY]
-        .map((v) => Number(v.toFixed(6))).join(',');
+        .map((v) => Number(v.toFixed(6)))
+        .join(',');
   }
 
   // False: it is no such text.
@@ -56,7 +63,7 @@ class View {
     if (n.length !== 11 || !n.every(Number.isFinite)) return false;
     const [forward, up] = [n.slice(3, 6), n.slice(6, 9)];
     if (!(Math.hypot(...cross(forward, up)) > 1e-6 && n[9] > 0 && n[10] > 0)) return false;
-    this.show({ eye: n.slice(0, 3), forward, up, half_x: n[9], half_y: n[10] });
+    this.show({eye: n.slice(0, 3), forward, up, half_x: n[9], half_y: n[10]});
     return true;
   }
 }

@@ -1,13 +1,25 @@
 // Keys, mouse and fingers: what they do to the view.
 
-const STEP_KEYS = { w: [1, 0, 0], s: [-1, 0, 0], d: [0, 1, 0], a: [0, -1, 0], e: [0, 0, 1], q: [0, 0, -1] };
-const TURN_KEYS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+const STEP_KEYS = {
+  w: [1, 0, 0],
+  s: [-1, 0, 0],
+  d: [0, 1, 0],
+  a: [0, -1, 0],
+  e: [0, 0, 1],
+  q: [0, 0, -1]
+};
+const TURN_KEYS = {
+  ArrowLeft: [-1, 0],
+  ArrowRight: [1, 0],
+  ArrowUp: [0, 1],
+  ArrowDown: [0, -1]
+};
 
 class Controls {
   // on.moved(): the view is another; on.pick(x, y): in −1 … 1; on.key(name): any other key, true
   // where it meant something.
   constructor(canvas, view, diagonal, on) {
-    Object.assign(this, { canvas, view, on, pace: diagonal / 8, held: new Set(), fast: false });
+    Object.assign(this, {canvas, view, on, pace: diagonal / 8, held: new Set(), fast: false});
     this.pointers = new Map();
     canvas.addEventListener('keydown', (event) => this.keyDown(event));
     canvas.addEventListener('keyup', (event) => this.held.delete(this.name(event)));
@@ -16,10 +28,12 @@ class Controls {
     canvas.addEventListener('pointermove', (event) => this.drag(event));
     canvas.addEventListener('pointerup', (event) => this.up(event));
     canvas.addEventListener('pointercancel', (event) => this.pointers.delete(event.pointerId));
-    canvas.addEventListener('wheel', (event) => this.wheel(event), { passive: false });
+    canvas.addEventListener('wheel', (event) => this.wheel(event), {passive: false});
   }
 
-  name(event) { return event.key.length === 1 ? event.key.toLowerCase() : event.key; }
+  name(event) {
+    return event.key.length === 1 ? event.key.toLowerCase() : event.key;
+  }
 
   keyDown(event) {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
@@ -48,7 +62,7 @@ class Controls {
   down(event) {
     this.canvas.focus();
     this.canvas.setPointerCapture(event.pointerId);
-    this.pointers.set(event.pointerId, { x: event.clientX, y: event.clientY, moved: 0 });
+    this.pointers.set(event.pointerId, {x: event.clientX, y: event.clientY, moved: 0});
   }
 
   drag(event) {
@@ -79,8 +93,9 @@ class Controls {
     this.pointers.delete(event.pointerId);
     if (!pointer || pointer.moved >= 4) return;
     const box = this.canvas.getBoundingClientRect();
-    this.on.pick(2 * (event.clientX - box.left) / box.width - 1,
-                 1 - 2 * (event.clientY - box.top) / box.height);
+    this.on.pick(
+        2 * (event.clientX - box.left) / box.width - 1,
+        1 - 2 * (event.clientY - box.top) / box.height);
   }
 
   wheel(event) {

@@ -6,7 +6,7 @@ const CURVES = ['shoulder', 'filmic', 'reinhard', 'linear'];
 // Ends of the colours of what zones hold: from the 0.5th to the 99.5th percentile, errors and J by
 // their logarithms over three decades at most.
 function colourScales(tables) {
-  const { zones, zoneStride, zoneCount, rows, bands, perBand } = tables;
+  const {zones, zoneStride, zoneCount, rows, bands, perBand} = tables;
   const levels = [], errors = [], sources = [];
   for (let z = 0; z < zoneCount; ++z) {
     const at = 4 * zoneStride * z, row = zones[at + 20];
@@ -19,7 +19,8 @@ function colourScales(tables) {
     for (let b = 0; b < bands; ++b) {
       const f = at + 4 * (LIGHT + perBand * b);
       for (const g of [f, f + 4])
-        value += zones[g] * point[0] + zones[g + 1] * point[1] + zones[g + 2] * point[2] + zones[g + 3];
+        value +=
+            zones[g] * point[0] + zones[g + 1] * point[1] + zones[g + 2] * point[2] + zones[g + 3];
       value += rows[4 * (row * bands + b) + 1];
     }
     sources.push(value / bands);
@@ -55,7 +56,10 @@ class Page {
     this.exposure = 0;
     this.cameraIndex = meta.camera;
     this.controls = new Controls(this.canvas, this.view, meta.diagonal, {
-      moved: () => this.moved(), pick: (x, y) => this.pick(x, y), key: (name) => this.key(name) });
+      moved: () => this.moved(),
+      pick: (x, y) => this.pick(x, y),
+      key: (name) => this.key(name)
+    });
     this.fill();
     this.readLink();
     this.listen();
@@ -63,8 +67,10 @@ class Page {
   }
 
   fill() {
-    const cameras = this.meta.cameras.map((camera, index) => element('option', { value: index },
-        camera.name + (camera.perspective ? '' : ' (in perspective)')));
+    const cameras = this.meta.cameras.map(
+        (camera, index) => element(
+            'option', {value: index},
+            camera.name + (camera.perspective ? '' : ' (in perspective)')));
     by('camera').append(...cameras);
     by('camera').value = this.meta.camera;
     by('curve').value = CURVES[this.meta.curve];
@@ -86,13 +92,13 @@ class Page {
         this.settingsChanged();
       }
     });
-    this.canvas.addEventListener('webglcontextlost', () =>
-        showNotice('The graphics driver gave up. Load the page again.'));
+    this.canvas.addEventListener(
+        'webglcontextlost', () => showNotice('The graphics driver gave up. Load the page again.'));
   }
 
   // The canvas has the pixels of its place; true: other ones than before.
   fit() {
-    const { canvas } = this, ratio = Math.min(window.devicePixelRatio || 1, 2);
+    const {canvas} = this, ratio = Math.min(window.devicePixelRatio || 1, 2);
     const width = Math.max(1, Math.round(ratio * canvas.clientWidth));
     const height = Math.max(1, Math.round(ratio * canvas.clientHeight));
     if (canvas.width === width && canvas.height === height) return false;
@@ -103,17 +109,25 @@ class Page {
 
   // The settings as the panel has them.
   look() {
-    const layers = [...by('layers').querySelectorAll('input')].slice(0, 5).map((i) => (i.checked ? 1 : 0));
+    const layers =
+        [...by('layers').querySelectorAll('input')].slice(0, 5).map((i) => (i.checked ? 1 : 0));
     const colours = this.clip() ? Number(by('colours').value) : 0;
-    return { layers, medium: by('medium').checked, clip: this.clip(), colours, scale: this.scales[colours],
-             white: this.meta.cameras[this.cameraIndex].white / 2 ** this.exposure,
-             curve: CURVES.indexOf(by('curve').value), edges: by('edges').checked,
-             rays: by('smooth').checked && !colours ? MOST_RAYS : 1 };
+    return {
+      layers,
+      medium: by('medium').checked,
+      clip: this.clip(),
+      colours,
+      scale: this.scales[colours],
+      white: this.meta.cameras[this.cameraIndex].white / 2 ** this.exposure,
+      curve: CURVES.indexOf(by('curve').value),
+      edges: by('edges').checked,
+      rays: by('smooth').checked && !colours ? MOST_RAYS : 1
+    };
   }
 
   cutPlace() {
     const k = 'xyz'.indexOf(by('cut').value);
-    const { hull_min: low, hull_max: high } = this.meta;
+    const {hull_min: low, hull_max: high} = this.meta;
     // Never on a face of the hull, nor on round numbers where walls stand.
     const at = Math.min(Math.max(Number(by('cut_at').value), 1e-4), 1 - 1e-4) + 1.37e-5;
     return low[k] + at * (high[k] - low[k]);
@@ -161,12 +175,12 @@ class Page {
     this.exposure = Number(by('exposure').value);
     by('exposure_value').textContent = this.exposure;
     const axis = 'xyz'.indexOf(by('cut').value);
-    by('cut_value').textContent = by('cut').value
-        ? (this.cutPlace() + this.meta.origin[axis]).toFixed(2) : '–';
+    by('cut_value').textContent =
+        by('cut').value ? (this.cutPlace() + this.meta.origin[axis]).toFixed(2) : '–';
     const look = this.look(), [low, high] = look.scale;
     const unit = look.colours > 1 ? ' W/m²/sr' : '';
-    by('scale').textContent = look.colours
-        ? `Colours: dark blue ${figure(low)} to yellow ${figure(high)}${unit}` : '';
+    by('scale').textContent =
+        look.colours ? `Colours: dark blue ${figure(low)} to yellow ${figure(high)}${unit}` : '';
     const shape = JSON.stringify([look.layers, look.medium, look.clip, look.colours]);
     if (shape === this.shape) {
       this.picture.showAgain(look);
@@ -205,7 +219,8 @@ class Page {
     if (this.dirty) {
       this.dirty = false;
       this.picture.drawMoving(frame, look);
-      this.canvas.dataset.first ||= Math.round(performance.now());  // [ms] since the page was asked for
+      this.canvas.dataset.first ||=
+          Math.round(performance.now());  // [ms] since the page was asked for
     } else if (now - this.lastMoved > 150) {
       more = this.picture.drawStrip(frame, look);
       if (!this.kept) this.keepLink();
@@ -225,21 +240,32 @@ class Page {
       by('picked').replaceChildren(element('p', {}, 'Nothing there: the ray leaves the scene.'));
       return true;
     }
-    const rows = found.rows.map(([name, value]) => element('tr', {}, element('th', { scope: 'row' }, name),
-                                                           element('td', {}, value)));
+    const rows = found.rows.map(
+        ([name, value]) =>
+            element('tr', {}, element('th', {scope: 'row'}, name), element('td', {}, value)));
     by('picked').replaceChildren(element('table', {}, element('caption', {}, found.what), ...rows));
     return true;
   }
 
   // All that is set, as the part of the address behind #.
   link() {
-    const values = { view: this.view.toText(), camera: this.cameraIndex, exposure: this.exposure,
-                     curve: by('curve').value, layers: this.look().layers.join(''),
-                     medium: Number(by('medium').checked), edges: Number(by('edges').checked),
-                     smooth: Number(by('smooth').checked) };
+    const values = {
+      view: this.view.toText(),
+      camera: this.cameraIndex,
+      exposure: this.exposure,
+      curve: by('curve').value,
+      layers: this.look().layers.join(''),
+      medium: Number(by('medium').checked),
+      edges: Number(by('edges').checked),
+      smooth: Number(by('smooth').checked)
+    };
     if (by('cut').value)
-      Object.assign(values, { cut: by('cut').value, at: by('cut_at').value, colours: by('colours').value,
-                              other: Number(by('cut_other').checked) });
+      Object.assign(values, {
+        cut: by('cut').value,
+        at: by('cut_at').value,
+        colours: by('colours').value,
+        other: Number(by('cut_other').checked)
+      });
     return `#${Object.entries(values).map(([key, value]) => `${key}=${value}`).join('&')}`;
   }
 
@@ -287,15 +313,20 @@ class Page {
   }
 }
 
-function say(text) { by('status').textContent = text; }
+function say(text) {
+  by('status').textContent = text;
+}
 
 function showNotice(text) {
   by('notice').hidden = false;
   by('notice').replaceChildren(
       element('h2', {}, 'There is no picture'), element('p', {}, text),
-      element('p', {}, 'The picture needs WebGL2 with floating-point pictures: a browser of 2022 or ' +
-          'newer, with its hardware acceleration switched on. What was solved stands in the ',
-          element('a', { href: '#report' }, 'report'), ' below; tyndall render makes pictures without a browser.'));
+      element(
+          'p', {},
+          'The picture needs WebGL2 with floating-point pictures: a browser of 2022 or ' +
+              'newer, with its hardware acceleration switched on. What was solved stands in the ',
+          element('a', {href: '#report'}, 'report'),
+          ' below; tyndall render makes pictures without a browser.'));
   for (const input of by('panel').elements) input.disabled = true;
 }
 
@@ -305,18 +336,20 @@ async function begin() {
   const testing = location.hash === '#selftest';
   try {
     const tables = new Tables(meta, await unpackArrays(meta, by('arrays').textContent));
-    const sources = Object.fromEntries(['walk_vert', 'walk_frag', 'display_frag']
-        .map((id) => [id, by(id).textContent]));
+    const sources = Object.fromEntries(
+        ['walk_vert', 'walk_frag', 'display_frag'].map((id) => [id, by(id).textContent]));
     if (testing) {
       const picture = new Picture(by('canvas'), tables, meta, sources);
       const results = meta.cameras.map((camera) => selfTest(picture, meta, camera));
-      document.body.append(element('pre', { id: 'selftest' }, JSON.stringify(results)));
+      document.body.append(element('pre', {id: 'selftest'}, JSON.stringify(results)));
       return;
     }
     window.tyndall = new Page(meta, tables, sources);  // for tests, and for the curious
   } catch (error) {
     showNotice(error.message);
-    if (testing) document.body.append(element('pre', { id: 'selftest' }, JSON.stringify({ error: error.message })));
+    if (testing)
+      document.body.append(
+          element('pre', {id: 'selftest'}, JSON.stringify({error: error.message})));
   }
 }
 

@@ -1,14 +1,17 @@
-// The picture: the walk in a fragment shader into a texture of floats, and from there to the screen.
-// Coarse while something moves; in strips at full resolution when nothing does, and then more rays
-// a pixel, so that edges become smooth.
+// The picture: the walk in a fragment shader into a texture of floats, and from there to the
+// screen. Coarse while something moves; in strips at full resolution when nothing does, and then
+// more rays a pixel, so that edges become smooth.
 
-const WIDTH = 2048;       // of the tables' textures [texel]
-const MOST_RAYS = 16;     // a pixel of a picture at rest
-const FRAME_MS = 40;      // that a frame in motion may take
-const STRIP_MS = 60;      // and a strip of one at rest
-const UNIFORMS = ['zones', 'nodes', 'walls', 'patches', 'pieces', 'rows', 'eye', 'forward', 'right',
-  'up', 'size', 'shift', 'hull_min', 'hull_max', 'environment', 'layers', 'medium', 'clip',
-  'clip_plane', 'clip_colours', 'colour_scale', 'inside', 'start'];
+const WIDTH = 2048;    // of the tables' textures [texel]
+const MOST_RAYS = 16;  // a pixel of a picture at rest
+const FRAME_MS = 40;   // that a frame in motion may take
+const STRIP_MS = 60;   // and a strip of one at rest
+const UNIFORMS = [
+  'zones',      'nodes',        'walls',        'patches', 'pieces', 'rows',
+  'eye',        'forward',      'right',        'up',      'size',   'shift',
+  'hull_min',   'hull_max',     'environment',  'layers',  'medium', 'clip',
+  'clip_plane', 'clip_colours', 'colour_scale', 'inside',  'start'
+];
 
 function compile(gl, vertex, fragment, defines) {
   const program = gl.createProgram();
@@ -29,26 +32,27 @@ function compile(gl, vertex, fragment, defines) {
 }
 
 const locations = (gl, program, names) =>
-  Object.fromEntries(names.map((name) => [name, gl.getUniformLocation(program, name)]));
+    Object.fromEntries(names.map((name) => [name, gl.getUniformLocation(program, name)]));
 
 class Picture {
   constructor(canvas, tables, meta, sources) {
-    const gl = this.gl = canvas.getContext('webgl2',
-      { alpha: false, antialias: false, depth: false, preserveDrawingBuffer: true });
+    const gl = this.gl = canvas.getContext(
+        'webgl2', {alpha: false, antialias: false, depth: false, preserveDrawingBuffer: true});
     if (!gl) throw new Error('This browser has no WebGL2.');
     this.float = gl.getExtension('EXT_color_buffer_float') !== null;
-    if (!this.float) throw new Error('This graphics driver cannot draw into floating-point pictures.');
+    if (!this.float)
+      throw new Error('This graphics driver cannot draw into floating-point pictures.');
     this.adds = gl.getExtension('EXT_float_blend') !== null;
     this.canvas = canvas;
     this.meta = meta;
     this.walker = new Walker(tables, meta.environment);
     const defines = `#define BANDS ${tables.bands}\n#define VARYING ${tables.varying ? 1 : 0}\n` +
-                    `#define WIDTH ${WIDTH}`;
+        `#define WIDTH ${WIDTH}`;
     this.walk = compile(gl, sources.walk_vert, sources.walk_frag, defines);
     this.walkAt = locations(gl, this.walk, UNIFORMS);
     this.display = compile(gl, sources.walk_vert, sources.display_frag, '');
-    this.displayAt = locations(gl, this.display,
-      ['inside', 'light', 'elements', 'scale', 'per_white', 'curve', 'edges']);
+    this.displayAt = locations(
+        gl, this.display, ['inside', 'light', 'elements', 'scale', 'per_white', 'curve', 'edges']);
     this.uploadTables(tables);
     this.uploadHull(tables);
     this.perMs = 100;  // pixels that are drawn in a millisecond, as measured; few, to begin with
@@ -90,7 +94,8 @@ class Picture {
     this.hull = gl.createVertexArray();
     this.hullCount = tables.hullCorners.length / 3;
     gl.bindVertexArray(this.hull);
-    const zones = new Float32Array(this.hullCount).map((_, i) => tables.hullZones[Math.floor(i / 3)]);
+    const zones =
+        new Float32Array(this.hullCount).map((_, i) => tables.hullZones[Math.floor(i / 3)]);
     [[tables.hullCorners, 3], [zones, 1]].forEach(([values, size], place) => {
       gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
       gl.bufferData(gl.ARRAY_BUFFER, values, gl.STATIC_DRAW);
@@ -104,8 +109,7 @@ class Picture {
     const gl = this.gl, old = this.targets[name];
     if (old && old.width === width && old.height === height) return old;
     if (old) [old.light, old.elements].forEach((texture) => gl.deleteTexture(texture));
-    const made = { width, height, frame: gl.createFramebuffer(),
-                   more: gl.createFramebuffer() };
+    const made = {width, height, frame: gl.createFramebuffer(), more: gl.createFramebuffer()};
     const texture = (format) => {
       const made = gl.createTexture();
       gl.activeTexture(gl.TEXTURE6);
@@ -126,7 +130,7 @@ class Picture {
   }
 
   isInside(eye) {
-    const { hull_min: low, hull_max: high } = this.meta;
+    const {hull_min: low, hull_max: high} = this.meta;
     return eye.every((x, k) => x > low[k] && x < high[k]);
   }
 
@@ -207,7 +211,7 @@ class Picture {
 
   // Onto the screen; rows from `above` on, counted from the bottom.
   show(target, look, above = 0) {
-    const gl = this.gl, { width, height } = this.canvas;
+    const gl = this.gl, {width, height} = this.canvas;
     gl.bindFramebuffer(gl.FRAMEBUFFER, null);
     gl.viewport(0, 0, width, height);
     gl.useProgram(this.display);
@@ -232,28 +236,29 @@ class Picture {
 
   // A picture in motion: as coarse as it must be.
   drawMoving(frame, look) {
-    const { width, height } = this.canvas;
+    const {width, height} = this.canvas;
     const fit = Math.sqrt(FRAME_MS * this.perMs / (width * height));
     const part = fit >= 1 ? 1 : Math.max(1 / 8, Math.floor(8 * fit) / 8);
     const target = this.target('coarse', Math.ceil(part * width), Math.ceil(part * height));
     this.timed(target.width * target.height, () => this.draw(target, frame, look));
     this.show(target, look);
-    this.rest = { sample: 0, row: height };
+    this.rest = {sample: 0, row: height};
     if (part < 1) return;
-    this.targets = { coarse: this.targets.full, full: target };
+    this.targets = {coarse: this.targets.full, full: target};
     this.rest.sample = 1;
   }
 
   // The next strip of a picture at rest, from the top; false: it is as good as it gets.
   drawStrip(frame, look) {
-    const { width, height } = this.canvas, rest = this.rest;
+    const {width, height} = this.canvas, rest = this.rest;
     const most = this.adds ? look.rays : 1;
     if (!rest || rest.sample >= most) return false;
     const target = this.target('full', width, height);
     const rows = Math.max(4, Math.floor(STRIP_MS * this.perMs / width));
     const from = Math.max(0, rest.row - rows);
-    this.timed(width * (rest.row - from),
-               () => this.draw(target, frame, look, rest.sample, from, rest.row));
+    this.timed(
+        width * (rest.row - from),
+        () => this.draw(target, frame, look, rest.sample, from, rest.row));
     rest.row = from;
     if (rest.sample === 0) this.show(target, look, from);
     if (from > 0) return true;

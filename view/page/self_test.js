@@ -4,18 +4,20 @@
 
 function selfTest(picture, meta, camera) {
   const width = 96, height = 72, bands = meta.bands;
-  const look = { layers: [1, 1, 1, 1, 1], medium: true, clip: null, colours: 0, scale: [0, 1, 0] };
+  const look = {layers: [1, 1, 1, 1, 1], medium: true, clip: null, colours: 0, scale: [0, 1, 0]};
   const frame = new View(camera).frame(width, height);
   const target = picture.target('test', width, height);
   picture.draw(target, frame, look);
   const gpu = picture.read(target), cpu = new Float64Array(3 * width * height);
-  const inside = picture.isInside(frame.eye), start = inside ? picture.walker.zoneAt(frame.eye) : -1;
+  const inside = picture.isInside(frame.eye),
+        start = inside ? picture.walker.zoneAt(frame.eye) : -1;
   for (let y = 0; y < height; ++y)
     for (let x = 0; x < width; ++x) {
       const d = rayOf(frame, 2 * (x + 0.5) / width - 1, 2 * (y + 0.5) / height - 1);
       const t = inside ? 0 : entryDistance(frame.eye, d, meta.hull_min, meta.hull_max);
-      const rope = inside || t < 0 ? start
-          : picture.walker.zoneAt(add(frame.eye, d, t + 1e-7 * picture.meta.diagonal));
+      const rope = inside || t < 0 ?
+          start :
+          picture.walker.zoneAt(add(frame.eye, d, t + 1e-7 * picture.meta.diagonal));
       const sum = picture.walker.radiance(frame.eye, d, rope, t, look.layers, true);
       const mean = sum.reduce((a, b) => a + b, 0) / bands;
       for (let c = 0; c < 3; ++c) cpu[3 * (y * width + x) + c] = bands === 3 ? sum[c] : mean;
@@ -31,8 +33,13 @@ function selfTest(picture, meta, camera) {
       place = Math.floor(k / 3);
     }
   });
-  return { pixels: width * height, mean, worst, rms: Math.sqrt(squares / cpu.length),
-           worst_at: [place % width, Math.floor(place / width)],
-           gpu: [...gpu.subarray(4 * place, 4 * place + 3)],
-           cpu: [...cpu.subarray(3 * place, 3 * place + 3)] };
+  return {
+    pixels: width * height,
+    mean,
+    worst,
+    rms: Math.sqrt(squares / cpu.length),
+    worst_at: [place % width, Math.floor(place / width)],
+    gpu: [...gpu.subarray(4 * place, 4 * place + 3)],
+    cpu: [...cpu.subarray(3 * place, 3 * place + 3)]
+  };
 }

@@ -31,11 +31,13 @@ class Walker {
   plane(table, at, x) {
     return table[at] * x[0] + table[at + 1] * x[1] + table[at + 2] * x[2] + table[at + 3];
   }
-  slope(table, at, d) { return table[at] * d[0] + table[at + 1] * d[1] + table[at + 2] * d[2]; }
+  slope(table, at, d) {
+    return table[at] * d[0] + table[at + 1] * d[1] + table[at + 2] * d[2];
+  }
 
   // The rope of the zone that holds x: the one whose nearest face is deepest inside.
   zoneAt(x) {
-    const { zones, zoneStride, zoneCount } = this.t;
+    const {zones, zoneStride, zoneCount} = this.t;
     let best = -1, deepest = -FAR;
     for (let z = 0; z < zoneCount; ++z) {
       let least = FAR;
@@ -50,7 +52,7 @@ class Walker {
   }
 
   descend(rope, eye, d, t) {
-    const { nodes } = this.t;
+    const {nodes} = this.t;
     while (rope >= 0 && (rope & 3) === 1) {
       const at = 8 * (rope >> 2);
       const start = this.plane(nodes, at, eye), slope = this.slope(nodes, at, d);
@@ -61,7 +63,7 @@ class Walker {
   }
 
   pieceAt(wall, x) {
-    const { nodes, walls } = this.t;
+    const {nodes, walls} = this.t;
     let rope = walls[4 * wall];
     while (rope >= 0 && (rope & 3) === 1) {
       const at = 8 * (rope >> 2);
@@ -74,12 +76,12 @@ class Walker {
   // wall and the distance, or null where it leaves or ends in the dark. From `begin` on; what is
   // before it, walls too, is passed. `end`: where a clip plane stands.
   follow(eye, d, rope, t, begin, end, onZone) {
-    const { zones, zoneStride, walls } = this.t;
+    const {zones, zoneStride, walls} = this.t;
     rope = this.descend(rope, eye, d, t);
     for (let step = 0; step < 20000; ++step) {
-      if (rope < 0) return { left: true, t };
+      if (rope < 0) return {left: true, t};
       if ((rope & 3) === 2) {
-        if (t >= begin) return { wall: rope >> 2, t };
+        if (t >= begin) return {wall: rope >> 2, t};
         rope = this.descend(walls[4 * (rope >> 2) + 1], eye, d, t);
         continue;
       }
@@ -97,7 +99,7 @@ class Walker {
       const row = zones[at + 20];
       if (t < begin && out >= begin) t = begin;
       if (t >= begin) {
-        if (row === -2) return { solid: true, zone, t };
+        if (row === -2) return {solid: true, zone, t};
         if (row >= 0 && out > t && onZone(zone, row, t, Math.min(out, end)) === false) return null;
         if (row >= 0 && out >= end) return null;
       }
@@ -109,21 +111,23 @@ class Walker {
 
   // Of a zone at x: direct and indirect source radiance and emission of every band.
   sourceAt(zone, x) {
-    const { zones, zoneStride, perBand, rows, bands } = this.t;
+    const {zones, zoneStride, perBand, rows, bands} = this.t;
     const row = zones[4 * zoneStride * zone + 20];
     const source = [];
     for (let b = 0; b < bands; ++b) {
       const at = 4 * (zoneStride * zone + LIGHT + perBand * b);
-      source.push({ extinction: this.extinctionAt(zone, row, b, x),
-                    emission: rows[4 * (row * bands + b) + 1],
-                    direct: Math.max(0, this.plane(zones, at, x)),
-                    indirect: Math.max(0, this.plane(zones, at + 4, x)) });
+      source.push({
+        extinction: this.extinctionAt(zone, row, b, x),
+        emission: rows[4 * (row * bands + b) + 1],
+        direct: Math.max(0, this.plane(zones, at, x)),
+        indirect: Math.max(0, this.plane(zones, at + 4, x))
+      });
     }
     return source;
   }
 
   extinctionAt(zone, row, band, x) {
-    const { zones, zoneStride, perBand, rows, bands, varying } = this.t;
+    const {zones, zoneStride, perBand, rows, bands, varying} = this.t;
     if (!varying) return rows[4 * (row * bands + band)];
     const at = 4 * (zoneStride * zone + LIGHT + perBand * band + 2);
     return Math.max(0, this.plane(zones, at, x));
@@ -131,24 +135,26 @@ class Walker {
 
   // Of the piece of a wall at x, likewise; with the patch that it is a part of.
   radianceAt(wall, x) {
-    const { pieces, pieceStride, patches, patchStride, rows, bands } = this.t;
+    const {pieces, pieceStride, patches, patchStride, rows, bands} = this.t;
     const rope = this.pieceAt(wall, x);
     if (rope < 0) return null;
     const piece = 4 * pieceStride * (rope >> 2), patch = pieces[piece];
     const at = 4 * patchStride * patch, row = patches[at];
     const parts = [];
     for (let b = 0; b < bands; ++b)
-      parts.push({ emission: rows[4 * (row * bands + b) + 1],
-                   direct: Math.max(0, this.plane(pieces, piece + 4 * (1 + b), x)),
-                   indirect: Math.max(0, this.plane(patches, at + 4 * (1 + b), x)) });
-    return { patch, parts };
+      parts.push({
+        emission: rows[4 * (row * bands + b) + 1],
+        direct: Math.max(0, this.plane(pieces, piece + 4 * (1 + b), x)),
+        indirect: Math.max(0, this.plane(patches, at + 4 * (1 + b), x))
+      });
+    return {patch, parts};
   }
 
   // Radiance along a ray [band], as the picture shows it.
   radiance(eye, d, rope, t, layers, medium) {
     const bands = this.t.bands, sum = new Array(bands).fill(0), through = new Array(bands).fill(1);
-    const on = (s) => s.map((p) => layers[0] * p.emission + layers[3] * p.direct +
-                                   layers[4] * p.indirect);
+    const on = (s) =>
+        s.map((p) => layers[0] * p.emission + layers[3] * p.direct + layers[4] * p.indirect);
     const place = (s) => [0, 1, 2].map((k) => eye[k] + s * d[k]);
     const end = this.follow(eye, d, rope, t, 0, FAR, (zone, row, tIn, tOut) => {
       if (!medium) return true;
@@ -157,9 +163,9 @@ class Walker {
       for (let b = 0; b < bands; ++b) {
         const kIn = first[b].extinction, kOut = last[b].extinction, quarter = (tOut - tIn) / 4;
         const half = 0.5 * (kIn + kOut);
-        const w = this.t.varying
-            ? segmentWeightsOfHalves(quarter * (kIn + half), quarter * (half + kOut))
-            : segmentWeights(kIn * (tOut - tIn));
+        const w = this.t.varying ?
+            segmentWeightsOfHalves(quarter * (kIn + half), quarter * (half + kOut)) :
+            segmentWeights(kIn * (tOut - tIn));
         sum[b] += through[b] * (w[0] * front[b] + w[1] * back[b]);
         through[b] *= w[2];
       }
@@ -170,8 +176,8 @@ class Walker {
     const seen = end && end.wall !== undefined ? this.radianceAt(end.wall, place(end.t)) : null;
     if (seen)
       seen.parts.forEach((p, b) => {
-        sum[b] += through[b] * (layers[0] * p.emission + layers[1] * p.direct +
-                                layers[2] * p.indirect);
+        sum[b] +=
+            through[b] * (layers[0] * p.emission + layers[1] * p.direct + layers[2] * p.indirect);
       });
     return sum;
   }
