@@ -93,9 +93,8 @@ const std::vector<Room> rooms{
 
 // Libraries that no header includes: they would cost every file seconds, and every user of the
 // installed package a dependency at compile time.
-const std::vector<std::string> heavy{"CGAL",   "TetGen", "OpenMesh", "Eigen",
-                                     "Embree", "HDF5",   "OpenEXR",  "libpng",
-                                     "zlib"};
+const std::vector<std::string> heavy{"CGAL", "TetGen",  "OpenMesh", "Eigen", "Embree",
+                                     "HDF5", "OpenEXR", "libpng",   "zlib"};
 
 }  // namespace
 
@@ -129,7 +128,8 @@ TEST_CASE("links run one way") {
 
 TEST_CASE("examples and tests of the libraries do not reach into the command") {
     const std::regex cli_include(R"re(^\s*#\s*include\s*"cli/)re");
-    for (const auto* folder : {"tests/mesh", "tests/radiosity", "tests/render", "tests/view", "examples"}) {
+    for (const auto* folder :
+         {"tests/mesh", "tests/radiosity", "tests/render", "tests/view", "examples"}) {
         if (!fs::exists(fs::path(TYNDALL_SOURCE_DIR) / folder)) {
             continue;
         }
