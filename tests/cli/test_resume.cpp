@@ -64,6 +64,8 @@ struct Left {
                 CHECK_NOTHROW(render::read_image(path));
             } else if (path.extension() == ".png") {
                 CHECK_THAT(mesh::read_file(path), Contains("IEND"));
+            } else if (path.extension() == ".html") {
+                CHECK(mesh::read_file(path).ends_with("</html>\n"));
             } else if (path.extension() == ".json") {
                 CHECK_NOTHROW(Json::parse(mesh::read_file(path)));
             } else {
