@@ -46,7 +46,7 @@ void for_directions(OnPixel&& on_pixel) {
 
 // With light of radiance 1 from everywhere no scattering, through whatever extinction, changes
 // anything.
-TEST_CASE("Source iteration: a furnace stays one") {
+TEST_CASE("Source iteration: a furnace stays one", "[long]") {
     auto enclosure = radiosity::make_enclosure(forward_slit());
     test::make_furnace(enclosure);
     const auto solution = solved(std::make_shared<const radiosity::Enclosure>(enclosure),
@@ -132,6 +132,6 @@ TEST_CASE("Source iteration: surfaces get what paths bring them", "[long]") {
         // error, which paths take from a bounce further away: 2 %.
         CHECK(std::abs(found - expected.mean) <
               std::hypot(4.5 * expected.error, 0.02 * expected.mean));
-        CHECK(expected.error < 0.02 * expected.mean);
+        CHECK(expected.error < 0.03 * expected.mean);  // what light that paths find may be off by
     }
 }

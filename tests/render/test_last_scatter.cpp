@@ -73,7 +73,7 @@ TEST_CASE("Phase functions are their Legendre series") {
         }
 }
 
-TEST_CASE("Cubes: the mean of what arrives is the isotropic gather's") {
+TEST_CASE("Cubes: the mean of what arrives is the isotropic gather's", "[long]") {
     const auto solution = solved_roughly(foggy_slit(0.7));
     const render::ArrivingLight light(solution, {.brightest = 0.0, .sweeps = 0});
     const radiosity::Probe probe(solution, {.rays = 4096});
@@ -94,7 +94,7 @@ TEST_CASE("Cubes: the mean of what arrives is the isotropic gather's") {
     CHECK(off < 0.02);
 }
 
-TEST_CASE("Cubes: the series is the sum of Φ over the cube's pixels") {
+TEST_CASE("Cubes: the series is the sum of Φ over the cube's pixels", "[long]") {
     const auto scene = foggy_slit(0.6);
     const auto solution = solved_roughly(scene);
     // Base tetrahedra: as many cubes as the test looks at, not many more.
@@ -145,7 +145,8 @@ TEST_CASE("Cubes: the series is the sum of Φ over the cube's pixels") {
 }
 
 // As the path tracer's: a slab of 1 m under a sun, crossed 0.3 m below its top.
-TEST_CASE("Last scatter: light scattered once has the phase function and the whole extinction") {
+TEST_CASE("Last scatter: light scattered once has the phase function and the whole extinction",
+          "[long]") {
     radiosity::Scene scene = test::open_floor(0.0);
     test::add_surfaces(scene, "slab", mesh::box({1, 1, 1}, {3, 3, 2}), {});
     double angle = 0.0;
@@ -163,7 +164,9 @@ TEST_CASE("Last scatter: light scattered once has the phase function and the who
     const double expected = 0.8 * 100.0 * phase * std::exp(-1.5 * 0.3) * -std::expm1(-1.5 * 2.0);
     const auto found = test::over(image, "single_scattering");
     if (angle == 0.0) {
-        CHECK(found.mean == Approx(expected).epsilon(1e-6));
+        // What leaves hold is in closed form, what they leave out is drawn.
+        CHECK(std::abs(found.off(expected)) < 4.5);
+        CHECK(found.error < 1e-4 * expected);
     } else {
         // Φ and the slanted way vary over the disc; paths know.
         const auto paths =
@@ -198,7 +201,7 @@ TEST_CASE("Last scatter is what two_pass finds by three scatterings", "[long]") 
     const auto solution = solved_roughly(foggy_slit(0.7));
     render::Camera camera = test::narrow_camera({0.3, 0.4, 1.0}, {3.0, 1.2, 0.8});
     camera.fov_x = 1.0;
-    const auto last = render::last_scatter(solution, camera, {.samples = 64});
+    const auto last = render::last_scatter(solution, camera, {.samples = 16});
     const auto two = render::two_pass(solution, camera, {.samples = 512, .scatterings = 3});
     const auto scattered = [](const render::Image& image) {
         return test::over(image, "single_scattering").mean +
@@ -206,8 +209,7 @@ TEST_CASE("Last scatter is what two_pass finds by three scatterings", "[long]") 
     };
     // Cubes are made by whichever thread comes first, and are the same.
     const auto one = render::last_scatter(solution, camera, {.samples = 16, .threads = 1});
-    const auto all = render::last_scatter(solution, camera, {.samples = 16});
-    CHECK(one.find("beauty")->values == all.find("beauty")->values);
+    CHECK(one.find("beauty")->values == last.find("beauty")->values);
     double noise = 0.0;
     for (const auto* image : {&last, &two})
         for (const float e : image->find("error")->values) noise += double(e) * double(e);
