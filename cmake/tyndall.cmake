@@ -29,6 +29,10 @@ add_library(tyndall_options INTERFACE)
 # results must not depend on whether the machine has fused multiply-add.
 target_compile_options(tyndall_options INTERFACE -Wall -Wextra -ffp-contract=off
                        $<$<BOOL:${TYNDALL_WERROR}>:-Werror>)
+# GCC collects its garbage when 128 MB are full, and few files need more than 500: a tenth less time.
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+    target_compile_options(tyndall_options INTERFACE "SHELL:--param ggc-min-heapsize=524288")
+endif()
 
 # For what reads, writes and asks but computes little: a third less time in the compiler.
 add_library(tyndall_quick_compile INTERFACE)

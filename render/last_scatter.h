@@ -11,14 +11,14 @@
 namespace tyndall::render {
 
 // Purpose: a picture of a solution in which the scatterings nearest to the eye have their phase
-//   function and whole coefficients. Layers as line_of_sight has them, and "error", the samples' own
-//   noise (sampled_picture.h); what the solution is off by is not in it.
+//   function and whole coefficients. Layers as line_of_sight has them, and "error", the samples'
+//   own noise (sampled_picture.h); what the solution is off by is not in it.
 // Equations: along a ray from the eye in direction ω, with κ, Ω, Φ, T as they are (not reduced),
 //     multiple_scattering: ∫ T κ Ω q H^I dt                                                    (58)
 //     single_scattering:   ∫ T κ Ω ∫ Φ τ L^A dω dt
 //   H^I the leaf's, q of (57) after two steps of source iteration (60) (arriving_light.h), L^A what
-//   lights send, τ the transmittance on the way from them. Surfaces are seen through T: direct light
-//   anew by τ in closed form, indirect light the leaf's and δ (62).
+//   lights send, τ the transmittance on the way from them. Surfaces are seen through T: direct
+//   light anew by τ in closed form, indirect light the leaf's and δ (62).
 // What comes from lights is what the leaves hold, turned to the eye (61), and at two places a
 //   sample, drawn by T and equiangularly (53), what they depart by from the visible parts of all
 //   lights in closed form: shafts are as sharp as the light makes them, whatever the mesh. The rest
