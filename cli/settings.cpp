@@ -145,7 +145,7 @@ constexpr Setting render_settings[] = {
      [](T t, K k, Settings& s) { s.render.samples = t.count(k, 1, 65536); }},
     {{"contrast", "number from 0", "0.01", "line_of_sight: pixels across which radiance departs from linear by no more than this share of it take one ray instead of samples; 0: none does"},
      [](T t, K k, Settings& s) { s.render.contrast = t.number(k, {0.0, 1e9}); }},
-    {{"scattering_tolerance", "number from 0", "0.002; uniform meshes: 1e9", "line_of_sight: single scattering is looked at along the ray where zones would be off by more than this share of the elements' mean radiance; 1e9: media are shown as the mesh holds them, as in studies"},
+    {{"scattering_tolerance", "number from 0", "0.002", "line_of_sight: single scattering is looked at along the ray where zones would be off by more than this share of the elements' mean radiance; 1e9, which is what uniform meshes and studies begin with: media are shown as the mesh holds them"},
      [](T t, K k, Settings& s) { s.render.scattering_tolerance = t.number(k, {0.0, 1e9}); }},
     {{"final_gather", "whole number", "0", "line_of_sight: rays a pixel that gather indirect light right where a surface is seen; 0: surfaces are shown as the mesh holds them"},
      [](T t, K k, Settings& s) { s.render.final_gather = t.count(k, 0, 1'000'000); }},
