@@ -143,9 +143,11 @@ std::vector<std::string> axis_keys(const Study& study) {
 }
 
 std::vector<PlacedSetting> common_settings(const Study& study, const CommonFlags& flags) {
-    // Meshes are judged by what their elements hold, unless the study says otherwise.
+    // Meshes are judged by what their elements hold, on the same rays in every run, unless the
+    // study says otherwise.
     std::vector<PlacedSetting> settings{
-        {"render.scattering_tolerance", fmt::format("{:g}", render::as_elements_hold), ""}};
+        {"render.scattering_tolerance", fmt::format("{:g}", render::as_elements_hold), ""},
+        {"render.contrast", "0", ""}};
     settings.insert(settings.end(), study.set.begin(), study.set.end());
     for (const auto& setting : flags.settings) settings.push_back({setting.key, setting.value, ""});
     if (flags.seed) settings.push_back({"solve.seed", fmt::format("{}", *flags.seed), ""});

@@ -31,6 +31,7 @@ ShaftCase small(const std::string& scene) {
     c.camera.height = 72;
     c.render = file.render;
     c.render.samples = 4;
+    c.render.contrast = 0.0;  // the rays of the exact picture
     // The mesh is to hold the shafts: no ray looks at them anew.
     c.render.scattering_tolerance = render::as_elements_hold;
     c.solve.rays = 4;  // nothing is asked of indirect light

@@ -107,10 +107,10 @@ solve.error = [0.1, 0.05, 0.03]      # the same as with quotes
     CHECK(runs[4].cells == std::vector<std::string>{"view", "0.05"});
     CHECK(runs[4].curve == "view");
     CHECK(runs[4].along == 0.05);
-    // Pictures show what elements hold.
-    CHECK(runs[4].override_texts() == std::vector<std::string>{"render.scattering_tolerance=1e+09",
-                                                               "solve.refinement=\"view\"",
-                                                               "solve.error=0.05"});
+    // Pictures show what elements hold, on the same rays.
+    CHECK(runs[4].override_texts() ==
+          std::vector<std::string>{"render.scattering_tolerance=1e+09", "render.contrast=0",
+                                   "solve.refinement=\"view\"", "solve.error=0.05"});
     CHECK(cli::scene_with(study, runs[4].overrides).solve.error == 0.05);
 }
 
@@ -133,7 +133,7 @@ along = "solve.rays"
     REQUIRE(runs.size() == 10);
     CHECK(runs[1].curve == "coarse, linear");
     CHECK(runs[1].cells == std::vector<std::string>{"1", "linear", "", ""});
-    CHECK(runs[1].overrides[1].text() == "solve.seed=7");  // behind what all studies begin with
+    CHECK(runs[1].overrides[2].text() == "solve.seed=7");  // behind what all studies begin with
     CHECK(runs[9].curve == "error 0.03");
     CHECK(runs[9].along == 64.0);
     const auto names = slugs(study);
