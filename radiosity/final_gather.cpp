@@ -37,19 +37,19 @@ Fields other_fields(const Solution& s, const Fields& lit) {
 
 }  // namespace
 
-FinalGather::FinalGather(const Solution& solution)
+FinalGather::FinalGather(const Solution& solution) : FinalGather(solution, lit_fields(solution)) {}
+
+FinalGather::FinalGather(const Solution& solution, const Fields& lit)
     : s_(solution),
-      lit_(*solution.enclosure, solution.forest, lit_fields(solution)),
-      rest_(*solution.enclosure, solution.forest, other_fields(solution, lit_fields(solution)),
-            detail) {}
+      lit_(*solution.enclosure, solution.forest, lit),
+      rest_(*solution.enclosure, solution.forest, other_fields(solution, lit), detail) {}
 
 void FinalGather::on_surface(PatchId leaf, Point x, const PointSet& points, std::uint64_t seed,
                              std::span<double> incident) const {
-    PatchId root = leaf;
-    while (s_.forest[root].parent.valid()) root = s_.forest[root].parent;
+    const std::uint32_t root = s_.forest.base_facet_side(leaf);
     thread_local std::vector<Gathered> gathered;
     gathered.resize(incident.size());
-    const GatherPoint point{x, mesh::start_before(s_.enclosure->mesh, root.value, x),
+    const GatherPoint point{x, mesh::start_before(s_.enclosure->mesh, root, x),
                             normal_of(s_.forest, leaf)};
     gather(rest_, &lit_, point, points, seed, gathered);
     for (std::size_t b = 0; b < incident.size(); ++b) incident[b] = gathered[b].mean;

@@ -24,6 +24,8 @@ class FinalGather {
                     std::span<double> incident) const;
 
   private:
+    FinalGather(const Solution& solution, const Fields& lit);
+
     const Solution& s_;
     LitPatches lit_;
     GatherScene rest_;

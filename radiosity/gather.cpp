@@ -16,7 +16,7 @@ GatherScene::GatherScene(const Enclosure& enclosure, const Forest& forest, const
                          double detail)
     : enclosure_(enclosure),
       forest_(forest),
-      zones_(forest),
+      zones_(packed_zones(forest)),
       stride_(sources.bands < 3 ? sources.bands : (sources.bands + 3) / 4 * 4),
       patches_(sources.patch),
       detail_(static_cast<float>(detail)) {
@@ -60,17 +60,19 @@ class RadianceWalk {
         const float* extinction = &s_.extinction_[tet.value * bands_];
         if (!(*std::max_element(extinction, extinction + bands_) > 0.0f)) return true;
         varying_ = s_.varying_.empty() ? nullptr : s_.varying_[tet.value];
-        return s_.zones_.descend(
-            tet, packed_, t_in, t_out,
-            // A leaf's sources are needed with it.
-            [&](std::uint32_t zone) { __builtin_prefetch(s_.sources(zone)); },
-            [&](float longest_edge, float t) { return longest_edge < s_.detail_ * t; },
-            [&](std::uint32_t zone, bool is_leaf, float in, float out) {
+        return descend_packed(
+            s_.zones_, tet.value, packed_, t_in, t_out,
+            [&](std::uint32_t zone, const PackedZone& node, float t) {
+                __builtin_prefetch(s_.sources(zone));  // a leaf's are needed with it
+                return node.longest_edge < s_.detail_ * t;
+            },
+            [&](std::uint32_t zone, const PackedZone& node, float in, float out) {
                 // A linear fit may dip below zero in a leaf's corner; radiance does not. An
                 // ancestor's may dip where it stands for lit and dark leaves, and be right in the
                 // mean.
-                const float least = is_leaf ? 0.0f : -std::numeric_limits<float>::infinity();
-                return gain(zone, extinction, in, out, least);
+                const float least =
+                    node.child == none ? 0.0f : -std::numeric_limits<float>::infinity();
+                return !(out > in) || gain(zone, extinction, in, out, least);
             });
     }
 

@@ -52,7 +52,7 @@ class GatherScene {
     const Source* sources(std::uint32_t zone) const { return sources_[0].of + zone * stride_; }
     const Enclosure& enclosure_;
     const Forest& forest_;
-    PackedZones zones_;
+    std::vector<PackedZone> zones_;
     // Of zones, [node * stride + band]: those of a node lie in as few cache lines as can be.
     std::vector<Sources> sources_;
     std::size_t stride_;

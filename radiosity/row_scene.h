@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "radiosity/exchange.h"
+#include "radiosity/packed_zones.h"
 
 namespace tyndall::radiosity {
 
@@ -89,10 +90,7 @@ class RowWalk {
     mesh::Arrival follow(const mesh::Ray& ray, mesh::WalkStart start) {
         const Point from = ray.origin - s_.centre_;
         ray_ = &ray;
-        for (int axis = 0; axis < 3; ++axis) {
-            origin_[axis] = static_cast<float>(from[axis]);
-            direction_[axis] = static_cast<float>(ray.direction[axis]);
-        }
+        packed_ = PackedRay(from, ray.direction);
         transmittance_.fill(1.0);
         column_ = none;
         depth_.fill(0.0f);
@@ -117,10 +115,6 @@ class RowWalk {
     }
 
   private:
-    static float dot(const float* a, const float* b) {
-        return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-    }
-
     // The column of the largest cluster above a root that may stand for it; none.
     static std::uint32_t cluster_for(const RowScene::Above& above, std::uint32_t root,
                                      float reach) {
@@ -141,37 +135,15 @@ class RowWalk {
         varying_ = s_.varying_.empty() ? nullptr : &s_.varying_[tet * Bands];
         if (const auto column = cluster_for(s_.zones_above_, tet, detail * t_in); column != none)
             return pass(column, extinction, t_in, t_out);
-        struct Pending {
-            std::uint32_t zone;
-            float t_out;
-        };
-        Pending stack[128];
-        int depth = 0;
-        std::uint32_t zone = tet;
-        for (;;) {
-            const RowScene::Node& node = s_.zones_[zone];
-            if (node.child == none || node.size <= detail * t_in || depth == 128) {
-                pass(node.column, extinction, t_in, t_out);
-                if (depth == 0) return;
-                t_in = t_out;
-                zone = stack[--depth].zone;
-                t_out = stack[depth].t_out;
-                continue;
-            }
-            const float slope = dot(node.plane, direction_);
-            const float start = dot(node.plane, origin_) + node.plane[3];
-            const float at_in = start + t_in * slope, at_out = start + t_out * slope;
-            if (at_in <= 0.0f && at_out <= 0.0f) {
-                zone = node.child;
-            } else if (at_in >= 0.0f && at_out >= 0.0f) {
-                zone = node.child + 1;
-            } else {
-                const float t = std::clamp(-start / slope, t_in, t_out);
-                stack[depth++] = {at_in < 0.0f ? node.child + 1 : node.child, t_out};
-                zone = at_in < 0.0f ? node.child : node.child + 1;
-                t_out = t;
-            }
-        }
+        descend_packed(
+            s_.zones_, tet, packed_, t_in, t_out,
+            [&](std::uint32_t, const RowScene::Node& node, float t) {
+                return node.size <= detail * t;
+            },
+            [&](std::uint32_t, const RowScene::Node& node, float in, float out) {
+                pass(node.column, extinction, in, out);
+                return true;
+            });
     }
 
     // Segments of one node on end are one deposit.
@@ -253,7 +225,7 @@ class RowWalk {
     Deposit deposit_;
     const mesh::Ray* ray_ = nullptr;
     const ExtinctionBand* const* varying_ = nullptr;  // of every band, in the tet that is crossed
-    float origin_[3]{}, direction_[3]{};
+    PackedRay packed_{};                              // from the middle of the hull
     Values transmittance_{};
     std::uint32_t column_ = none;
     std::array<float, Bands> depth_{};  // optical, in column_ so far

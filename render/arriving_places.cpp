@@ -5,6 +5,8 @@
 #include <limits>
 #include <map>
 
+#include "mesh/body.h"
+
 namespace tyndall::render {
 
 using mesh::PatchId;
@@ -190,14 +192,13 @@ class Finder {
         }
         result_.patch_groups[patch.value] = std::uint32_t(result_.patch_corners.size());
         const std::uint32_t root = forest.base_facet_side(patch);
-        const auto side = root % 2 ? mesh::Side::back : mesh::Side::front;
-        const auto start = mesh::start_on(e_.mesh, mesh::FacetId(root / 2), side);
         std::array<std::uint32_t, 3> corners;
         for (int k = 0; k < 3; ++k) {
             const VertexId corner = forest[patch].corners[k];
             const Point x = forest.point(corner);
-            corners[k] = place({corner.value, root}, {x + off_wall * (forest.centroid(patch) - x),
-                                                      start, radiosity::normal_of(forest, patch)});
+            const Point off = x + off_wall * (forest.centroid(patch) - x);
+            corners[k] = place({corner.value, root}, {off, mesh::start_before(e_.mesh, root, off),
+                                                      radiosity::normal_of(forest, patch)});
         }
         result_.patch_corners.push_back(corners);
     }

@@ -38,7 +38,7 @@ struct ArrivingPlaces {
 //   there are any, of patches that reflect, wherever they are.
 // Places on walls are a little off their corner, towards the group's middle: no ray starts on a
 // wall's edge, and groups on two sides of a wall have places of their own.
-// Cost: the nodes.
+// Cost: the nodes above groups, times the lit leaves on patches.
 ArrivingPlaces arriving_places(const radiosity::Solution& solution,
                                const ArrivingPlacesOptions& options = {});
 

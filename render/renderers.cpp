@@ -40,16 +40,17 @@ const NamedRenderer& renderer_named(std::string_view name) {
                                        fmt::join(renderer_names(), ", ")));
 }
 
-void refuse_bodies(const radiosity::Enclosure& enclosure) {
+void refuse_bodies(const radiosity::Enclosure& enclosure, std::string_view advice) {
     if (enclosure.mesh.bodies.empty()) return;
     const auto sides = enclosure.facet_sides[enclosure.mesh.bodies.front().first.value];
     const auto side = sides[0] != radiosity::none ? sides[0] : sides[1];
     const std::string name =
         side == radiosity::none ? "an object" : fmt::format("\"{}\"", enclosure.sides[side].name);
-    throw mesh::InputError(fmt::format(
-        "{} moves through the mesh without being cut into it, which line_of_sight alone can draw. "
-        "Choose that method, or solve the scene of this frame by itself.",
-        name));
+    throw mesh::InputError(
+        fmt::format("{} moves through the mesh without being cut into it, {}, or solve the scene "
+                    "of this frame by "
+                    "itself.",
+                    name, advice));
 }
 
 }  // namespace tyndall::render

@@ -32,7 +32,10 @@ std::vector<std::string_view> renderer_names();
 const NamedRenderer& renderer_named(std::string_view name);
 
 // Of methods that do not see what moves as a body in the mesh (mesh/body.h).
+// `advice`: who can, and what to do; "or solve the scene of this frame by itself" follows.
 // Errors: mesh::InputError where there is such a body, with its name.
-void refuse_bodies(const radiosity::Enclosure& enclosure);
+void refuse_bodies(
+    const radiosity::Enclosure& enclosure,
+    std::string_view advice = "which line_of_sight alone can draw. Choose that method");
 
 }  // namespace tyndall::render

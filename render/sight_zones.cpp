@@ -26,7 +26,7 @@ SightZones::SightZones(const radiosity::Solution& s)
     : e_(*s.enclosure),
       bands_(e_.bands),
       stride_((numbers * bands_ + line_length - 1) / line_length),
-      zones_(s.forest),
+      zones_(radiosity::packed_zones(s.forest)),
       lines_(s.forest.zone_count() * stride_) {
     for (std::size_t z = 0; z < s.forest.zone_count(); ++z) {
         const ZoneId zone(z);
@@ -45,11 +45,15 @@ bool SightZones::cross(const SightRay& ray, TetId tet, double t_in, double t_out
                        const SingleScattering* scattered, double anew) const {
     thread_local std::vector<double> along;
     along.resize(bands_);
-    return zones_.descend(
-        tet, ray.packed, float(t_in), float(t_out),
-        [&](std::uint32_t zone) { __builtin_prefetch(leaf(zone)); },
-        [](float, float) { return false; },
-        [&](std::uint32_t zone, bool, float in, float out) {
+    using radiosity::PackedZone;
+    return radiosity::descend_packed(
+        zones_, tet.value, ray.packed, float(t_in), float(t_out),
+        [&](std::uint32_t zone, const PackedZone&, float) {
+            __builtin_prefetch(leaf(zone));
+            return false;
+        },
+        [&](std::uint32_t zone, const PackedZone&, float in, float out) {
+            if (!(out > in)) return true;
             const bool asked = scattered && scattered->along(ray.ray, ZoneId(zone), in, out,
                                                              seen.transmittance, along);
             return gain(ray, zone, tet, in, out, asked ? along.data() : nullptr, anew, seen);

@@ -44,7 +44,7 @@ class SightZones {
 
     const radiosity::Enclosure& e_;
     std::size_t bands_, stride_;  // lines a node
-    radiosity::PackedZones zones_;
+    std::vector<radiosity::PackedZone> zones_;
     std::vector<Line> lines_;
 };
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <numbers>
 
+#include "mesh/body.h"
+
 namespace tyndall::render {
 
 using mesh::PatchId;
@@ -67,8 +69,11 @@ TurnedSources::TurnedSources(const radiosity::Solution& solution, const radiosit
     }
     radiosity::coarsen(s_.forest, direct_);
     radiosity::coarsen(s_.forest, indirect_);
-    look_from_leaves();
-    look_from_patches();
+    const bool closed = s_.direct_light == radiosity::DirectLightMode::closed_form;
+    const radiosity::DirectLight whole_light(whole_, {.emitters = closed}),
+        reduced_light(e_, {.emitters = closed});
+    look_from_leaves(whole_light, reduced_light);
+    look_from_patches(whole_light, reduced_light);
     weigh_nodes();
     choose_lit();
 }
@@ -143,10 +148,8 @@ TurnedSources::LeafParts TurnedSources::parts_at(ZoneId leaf, const radiosity::D
     return result;
 }
 
-void TurnedSources::look_from_leaves() {
-    const bool closed = s_.direct_light == radiosity::DirectLightMode::closed_form;
-    const radiosity::DirectLight whole(whole_, {.emitters = closed}),
-        reduced(e_, {.emitters = closed});
+void TurnedSources::look_from_leaves(const radiosity::DirectLight& whole,
+                                     const radiosity::DirectLight& reduced) {
     std::vector<ZoneId> lit;
     for (const ZoneId zone : zones_) {
         if (!s_.forest.is_leaf(zone) || e_.media[medium_of(zone)].phase.isotropic()) continue;
@@ -179,20 +182,15 @@ void TurnedSources::look_from_leaves() {
         }
 }
 
-void TurnedSources::look_from_patches() {
-    const bool closed = s_.direct_light == radiosity::DirectLightMode::closed_form;
-    const radiosity::DirectLight whole(whole_, {.emitters = closed}),
-        reduced(e_, {.emitters = closed});
+void TurnedSources::look_from_patches(const radiosity::DirectLight& whole,
+                                      const radiosity::DirectLight& reduced) {
     patch_kept_.assign(s_.forest.patch_count() * bands_, 1.0);
     tbb::parallel_for(std::size_t(0), s_.forest.patch_count(), [&](std::size_t p) {
         const PatchId patch(p);
         if (!s_.forest.is_leaf(patch) || radiosity::side_of(e_, s_.forest, patch) == none) return;
-        const auto side = s_.forest.base_facet_side(patch);
-        const TetId tet = mesh::start_on(e_.mesh, mesh::FacetId(side / 2),
-                                         side % 2 ? mesh::Side::back : mesh::Side::front)
-                              .tet;
         const Direction n = radiosity::normal_of(s_.forest, patch);
         const Point x = s_.forest.centroid(patch);
+        const TetId tet = mesh::start_before(e_.mesh, s_.forest.base_facet_side(patch), x).tet;
         std::vector<double> by_whole(bands_), by_reduced(bands_);
         whole.at_patch(x, n, tet, by_whole);
         reduced.at_patch(x, n, tet, by_reduced);

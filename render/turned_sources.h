@@ -60,8 +60,10 @@ class TurnedSources {
     struct LeafParts;
 
     std::uint32_t medium_of(mesh::ZoneId zone) const;
-    void look_from_leaves();
-    void look_from_patches();
+    void look_from_leaves(const radiosity::DirectLight& whole,
+                          const radiosity::DirectLight& reduced);
+    void look_from_patches(const radiosity::DirectLight& whole,
+                           const radiosity::DirectLight& reduced);
     LeafParts parts_at(mesh::ZoneId leaf, const radiosity::DirectLight& whole,
                        const radiosity::DirectLight& reduced) const;
     void weigh_nodes();

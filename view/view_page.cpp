@@ -7,9 +7,9 @@
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
-#include "mesh/input_error.h"
 #include "radiosity/report_json.h"
 #include "render/line_of_sight.h"
+#include "render/renderers.h"
 #include "render/tone_map.h"
 #include "view/packed_arrays.h"
 #include "view/page_sources.h"
@@ -30,14 +30,6 @@ Json vector_json(Direction v) {
     return {v.x, v.y, v.z};
 }
 
-void refuse_bodies(const radiosity::Enclosure& enclosure) {
-    if (enclosure.mesh.bodies.empty()) return;
-    throw mesh::InputError(
-        "the solution is a frame of an animation in which surfaces move through the mesh without "
-        "being cut into it, and view.html cannot draw those. Make a picture by tyndall render, or "
-        "solve the scene of this frame by itself.");
-}
-
 // The radiance shown as white, as a picture of that camera would have it.
 double white_of(const radiosity::Solution& solution, const Camera& camera,
                 const PageOptions& options) {
@@ -54,15 +46,13 @@ double white_of(const radiosity::Solution& solution, const Camera& camera,
            std::exp2(tone.exposure);
 }
 
-Point centroid(const mesh::BaseMesh& mesh, mesh::TetId tet) {
-    Point sum(0.0);
-    for (const auto corner : mesh.tets[tet.value]) sum += 0.25 * mesh.points[corner.value];
-    return sum;
-}
-
 // Stands in the tetrahedron with most room that is not in a solid, and looks to the farthest one.
-Camera roomy_camera(const radiosity::Enclosure& enclosure) {
+Camera roomy_camera(const radiosity::Solution& solution) {
+    const auto& enclosure = *solution.enclosure;
     const auto& mesh = enclosure.mesh;
+    const auto centroid = [&](std::size_t tet) {
+        return solution.forest.centroid(mesh::root_zone(mesh::TetId(tet)));
+    };
     Camera camera;
     camera.name = "somewhere";
     camera.fov_x = 1.3;
@@ -70,13 +60,13 @@ Camera roomy_camera(const radiosity::Enclosure& enclosure) {
     for (std::size_t t = 0; t < mesh.tets.size(); ++t)
         if (const mesh::TetId tet(t); !enclosure.solid(tet) && mesh::volume(mesh, tet) > most) {
             most = mesh::volume(mesh, tet);
-            camera.eye = centroid(mesh, tet);
+            camera.eye = centroid(t);
         }
     camera.target = camera.eye + Direction(1.0, 0.0, 0.0);
     for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
         if (enclosure.solid(mesh::TetId(t))) continue;
         // Level, so that it is never along `up`.
-        Point there = centroid(mesh, mesh::TetId(t));
+        Point there = centroid(t);
         there.z = camera.eye.z;
         if (glm::distance(there, camera.eye) <= farthest) continue;
         farthest = glm::distance(there, camera.eye);
@@ -107,7 +97,7 @@ Json camera_json(const radiosity::Solution& solution, const Camera& camera, Poin
 Json cameras_json(const radiosity::Solution& solution, Point origin, const PageOptions& options) {
     Json cameras = Json::array();
     auto list = options.cameras;
-    if (list.empty()) list.push_back(roomy_camera(*solution.enclosure));
+    if (list.empty()) list.push_back(roomy_camera(solution));
     for (const auto& camera : list)
         cameras.push_back(camera_json(solution, camera, origin, options));
     return cameras;
@@ -185,13 +175,10 @@ Json meta_json(const radiosity::Solution& solution, const ViewerArrays& arrays,
     return meta;
 }
 
-// Text within a script element: nothing in it may look like its end.
-std::string in_script(const std::string& text) {
+// JSON within a script element: nothing in it may look like a tag.
+std::string in_script(const std::string& json) {
     std::string result;
-    for (const char c : text) {
-        if (c == '/' && !result.empty() && result.back() == '<') result += '\\';
-        result += c;
-    }
+    for (const char c : json) result += c == '<' ? "\\u003c" : std::string(1, c);
     return result;
 }
 
@@ -219,7 +206,8 @@ std::string filled(std::string_view page, TextOf&& text_of) {
 }  // namespace
 
 std::string view_page(const radiosity::Solution& solution, const PageOptions& options) {
-    refuse_bodies(*solution.enclosure);
+    render::refuse_bodies(*solution.enclosure,
+                          "which view.html cannot show. Make a picture with tyndall render");
     const SharpenedPatches patches = sharpen_patches(solution, options.sharpen);
     const ViewerArrays arrays = viewer_arrays(solution, patches);
     const PackedArrays packed = pack(arrays);

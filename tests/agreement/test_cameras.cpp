@@ -33,14 +33,8 @@ const radiosity::Solution& open_box(double asymmetry = 0.0) {
     return asymmetry == 0.0 ? even : forward;
 }
 
-render::Camera camera_at(mesh::Point eye, mesh::Point target) {
-    render::Camera camera;
-    camera.eye = eye;
-    camera.target = target;
-    camera.fov_x = 1.2;
-    camera.width = 12;
-    camera.height = 9;
-    return camera;
+render::Camera small_camera(mesh::Point eye, mesh::Point target) {
+    return test::camera_at(eye, target, 1.2, 12, 9);
 }
 
 // Checks that no layer has a value that cannot be.
@@ -57,16 +51,16 @@ void check_radiances(const render::Image& image) {
 
 TEST_CASE("No picture has what is no radiance, wherever the camera stands", "[picture]") {
     const std::pair<const char*, render::Camera> cameras[]{
-        {"inside", camera_at({0.3, 0.3, 1.0}, {2.0, 1.0, 0.4})},
-        {"on a wall", camera_at({0.0, 1.0, 1.0}, {3.0, 1.0, 0.5})},
-        {"in a corner", camera_at({0.0, 0.0, 0.0}, {3.0, 2.0, 2.0})},
-        {"along a wall", camera_at({0.0, 0.0, 1.0}, {3.0, 0.0, 1.0})},
-        {"on the lamp", camera_at({0.8, 1.0, 2.0}, {2.0, 1.0, 0.7})},
-        {"on the opening's edge", camera_at({3.0, 0.0, 0.0}, {0.0, 1.0, 1.0})},
-        {"outside, in front of the opening", camera_at({6.0, 1.0, 1.0}, {0.0, 1.0, 1.0})},
-        {"outside, behind a wall", camera_at({-3.0, 1.0, 1.0}, {0.0, 1.0, 1.0})},
-        {"outside, looking away", camera_at({6.0, 1.0, 1.0}, {9.0, 1.0, 1.0})},
-        {"a kilometre away", camera_at({1000.0, 1.0, 1.0}, {0.0, 1.0, 1.0})},
+        {"inside", small_camera({0.3, 0.3, 1.0}, {2.0, 1.0, 0.4})},
+        {"on a wall", small_camera({0.0, 1.0, 1.0}, {3.0, 1.0, 0.5})},
+        {"in a corner", small_camera({0.0, 0.0, 0.0}, {3.0, 2.0, 2.0})},
+        {"along a wall", small_camera({0.0, 0.0, 1.0}, {3.0, 0.0, 1.0})},
+        {"on the lamp", small_camera({0.8, 1.0, 2.0}, {2.0, 1.0, 0.7})},
+        {"on the opening's edge", small_camera({3.0, 0.0, 0.0}, {0.0, 1.0, 1.0})},
+        {"outside, in front of the opening", small_camera({6.0, 1.0, 1.0}, {0.0, 1.0, 1.0})},
+        {"outside, behind a wall", small_camera({-3.0, 1.0, 1.0}, {0.0, 1.0, 1.0})},
+        {"outside, looking away", small_camera({6.0, 1.0, 1.0}, {9.0, 1.0, 1.0})},
+        {"a kilometre away", small_camera({1000.0, 1.0, 1.0}, {0.0, 1.0, 1.0})},
     };
     for (const auto& renderer : render::renderers())
         for (const auto& [where, camera] : cameras) {
@@ -82,7 +76,7 @@ TEST_CASE("No picture has what is no radiance, wherever the camera stands", "[pi
 }
 
 TEST_CASE("Fog that scatters forwards has no radiance below 0", "[picture][long]") {
-    const auto camera = camera_at({0.3, 0.3, 1.0}, {2.0, 1.0, 0.4});
+    const auto camera = small_camera({0.3, 0.3, 1.0}, {2.0, 1.0, 0.4});
     for (const auto& renderer : render::renderers()) {
         INFO(renderer.name);
         check_radiances(
@@ -91,7 +85,7 @@ TEST_CASE("Fog that scatters forwards has no radiance below 0", "[picture][long]
 }
 
 TEST_CASE("An eye in a solid is refused by every renderer", "[picture]") {
-    const auto camera = camera_at({2.0, 1.0, 0.3}, {0.0, 0.0, 1.0});
+    const auto camera = small_camera({2.0, 1.0, 0.3}, {0.0, 0.0, 1.0});
     for (const auto& renderer : render::renderers()) {
         INFO(renderer.name);
         CHECK_THROWS_AS(

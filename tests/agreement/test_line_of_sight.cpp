@@ -35,13 +35,7 @@ radiosity::Solution coarse_solution(double extinction) {
 }
 
 render::Camera view_of_block() {
-    render::Camera camera;
-    camera.eye = {0.2, 0.3, 1.0};
-    camera.target = {2.0, 1.0, 0.4};
-    camera.fov_x = 1.2;
-    camera.width = 64;
-    camera.height = 48;
-    return camera;
+    return test::camera_at({0.2, 0.3, 1.0}, {2.0, 1.0, 0.4}, 1.2, 64, 48);
 }
 
 }  // namespace
@@ -110,8 +104,9 @@ TEST_CASE("Pixels of one ray look like those of many", "[line_of_sight]") {
     CHECK(same > p.size() / 10);
     CHECK(same < p.size() * 2 / 3);
     CHECK(worst < 0.03);  // an edge may hide between the middles
+    // A tenth of what a pixel of one ray may depart from linear by.
     CHECK(render::block_error(64, 48, *few.find("beauty"), *all.find("beauty"), 1) < 0.001);
-    // Parts of the picture are the whole's: the same pixels have one ray.
+    // Parts of the picture are the whole's, but for the places of the 64 rays at edges.
     const auto part = render::line_of_sight(s, camera.cropped(16, 8, 20, 24), {.samples = 64});
     const auto cut = render::region_of(64, 48, *few.find("beauty"), {16, 8, 20, 24});
     CHECK(render::block_error(20, 24, *part.find("beauty"), cut, 1) < 0.005);
@@ -139,6 +134,7 @@ TEST_CASE("A final gather is right where the mesh is too coarse", "[line_of_sigh
             return test::over(image, "surfaces_indirect").mean /
                    test::over(image, "transmittance").mean;
         };
+        // Of 4096 rays, and zones that stand for those in them: a percent.
         CHECK(seen(4096) == Approx(expected).epsilon(0.02));
         departure = std::max(departure, std::abs(seen(0) / expected - 1.0));
     }

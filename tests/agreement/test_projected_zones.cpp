@@ -7,20 +7,14 @@
 #include "render/line_of_sight.h"
 #include "render/projected_zones.h"
 #include "support/catch.h"
-#include "support/rooms.h"
+#include "support/path_scenes.h"
 
 using namespace tyndall;
 
 namespace {
 
 render::Camera towards_slit() {
-    render::Camera camera;
-    camera.eye = {0.4, 0.3, 1.2};
-    camera.target = {3.0, 1.6, 1.4};
-    camera.fov_x = 1.3;
-    camera.width = 64;
-    camera.height = 48;
-    return camera;
+    return test::camera_at({0.4, 0.3, 1.2}, {3.0, 1.6, 1.4}, 1.3, 64, 48);
 }
 
 const radiosity::Solution& slit_solution() {

@@ -14,13 +14,7 @@ using namespace tyndall;
 namespace {
 
 render::Camera small_camera() {
-    render::Camera camera;
-    camera.eye = {0.3, 0.4, 1.0};
-    camera.target = {3.0, 1.2, 0.8};
-    camera.fov_x = 1.2;
-    camera.width = 32;
-    camera.height = 24;
-    return camera;
+    return test::camera_at({0.3, 0.4, 1.0}, {3.0, 1.2, 0.8}, 1.2, 32, 24);
 }
 
 radiosity::Solution solved(const radiosity::Scene& scene, const render::Camera& camera,

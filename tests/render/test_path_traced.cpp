@@ -182,12 +182,7 @@ TEST_CASE("Path traced: in a furnace everything is 1, mirrors and fog with lobes
     scene.media[1].phase = radiosity::PhaseKind::rayleigh;
     auto e = radiosity::make_enclosure(scene);
     test::make_furnace(e);
-    render::Camera camera;
-    camera.eye = {0.3, 0.4, 1.0};
-    camera.target = {3.0, 1.2, 0.8};
-    camera.fov_x = 1.2;
-    camera.width = 24;
-    camera.height = 18;
+    auto camera = test::camera_at({0.3, 0.4, 1.0}, {3.0, 1.2, 0.8}, 1.2, 24, 18);
     const auto image = render::path_traced(e, camera, {.samples = 64});
     const auto all = test::over(image, "beauty");
     // The glossy lobe's table loses or gains 2e-3 a reflection, on 2 of them in the mean.
@@ -238,12 +233,7 @@ TEST_CASE("Path traced: bands at once are the bands one by one") {
 
 TEST_CASE("Path traced: goals, layers, threads") {
     const auto e = radiosity::make_enclosure(test::slit_room());
-    render::Camera camera;
-    camera.eye = {0.3, 0.4, 1.0};
-    camera.target = {3.0, 1.2, 0.8};
-    camera.fov_x = 1.2;
-    camera.width = 16;
-    camera.height = 12;
+    auto camera = test::camera_at({0.3, 0.4, 1.0}, {3.0, 1.2, 0.8}, 1.2, 16, 12);
     const auto image = render::path_traced(e, camera, {.error = 0.03});
     CHECK(image.estimated_block4 <= 0.03);
     CHECK(image.estimated_block4 > 0.015);  // and not much further

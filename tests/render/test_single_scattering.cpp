@@ -17,13 +17,7 @@ namespace {
 constexpr std::size_t width = 20, height = 15;
 
 render::Camera beside_the_cone() {
-    render::Camera camera;
-    camera.eye = {0.3, 0.4, 1.5};
-    camera.target = {2.2, 2.2, 1.7};
-    camera.fov_x = 1.2;
-    camera.width = width;
-    camera.height = height;
-    return camera;
+    return test::camera_at({0.3, 0.4, 1.5}, {2.2, 2.2, 1.7}, 1.2, width, height);
 }
 
 // A cone of light that passes the eye, in haze: rays run along its edge.

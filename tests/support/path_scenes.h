@@ -36,14 +36,21 @@ inline Estimate over(const render::Image& image, const std::string& layer) {
     return estimate(values->values.size(), [&](std::size_t k) { return values->values[k]; });
 }
 
-// A camera whose pixels all look at the same point, but for a thousandth of a degree.
-inline render::Camera narrow_camera(mesh::Point eye, mesh::Point target, std::size_t size = 16) {
+inline render::Camera camera_at(mesh::Point eye, mesh::Point target, double fov_x,
+                                std::size_t width, std::size_t height) {
     render::Camera camera;
     camera.eye = eye;
     camera.target = target;
+    camera.fov_x = fov_x;
+    camera.width = width;
+    camera.height = height;
+    return camera;
+}
+
+// A camera whose pixels all look at the same point, but for a thousandth of a degree.
+inline render::Camera narrow_camera(mesh::Point eye, mesh::Point target, std::size_t size = 16) {
+    render::Camera camera = camera_at(eye, target, 1e-5, size, size);
     if (std::abs(glm::normalize(target - eye).z) > 0.9) camera.up = {0, 1, 0};
-    camera.fov_x = 1e-5;
-    camera.width = camera.height = size;
     return camera;
 }
 

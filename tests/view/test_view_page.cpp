@@ -6,8 +6,8 @@
 #include "radiosity/adaptive.h"
 #include "radiosity/direct_light.h"
 #include "support/catch.h"
+#include "support/path_scenes.h"
 #include "support/random_rays.h"
-#include "support/rooms.h"
 #include "view/packed_arrays.h"
 #include "view/view_page.h"
 #include "view/viewer_arrays.h"
@@ -135,12 +135,7 @@ TEST_CASE("Sharpened patches hold direct light that pictures would compute anew"
 TEST_CASE("A page is one file with all in it, the same at any thread count", "[view]") {
     view::PageOptions options;
     options.title = "A </script> & <b>";
-    render::Camera camera;
-    camera.eye = {0.4, 0.3, 1.2};
-    camera.target = {3.0, 1.6, 1.4};
-    camera.fov_x = 1.3;
-    camera.width = 32;
-    camera.height = 24;
+    auto camera = test::camera_at({0.4, 0.3, 1.2}, {3.0, 1.6, 1.4}, 1.3, 32, 24);
     options.cameras = {camera};
     options.sharpen.most_pieces = 500;
     options.threads = 2;
