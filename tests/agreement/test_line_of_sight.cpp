@@ -40,7 +40,7 @@ render::Camera view_of_block() {
 
 }  // namespace
 
-TEST_CASE("Zones packed for sight show what the forest holds", "[line_of_sight]") {
+TEST_CASE("Zones packed for sight show what the forest holds", "[line_of_sight][long]") {
     auto scene = room_with_block(0.4);
     for (auto& material : scene.materials)
         for (auto* values : {&material.reflectance, &material.emission})
@@ -85,7 +85,7 @@ TEST_CASE("Zones packed for sight show what the forest holds", "[line_of_sight]"
     CHECK(worst < 1e-5 * mean);  // single precision
 }
 
-TEST_CASE("Pixels of one ray look like those of many", "[line_of_sight]") {
+TEST_CASE("Pixels of one ray look like those of many", "[line_of_sight][long]") {
     const auto s = radiosity::solve_adaptively(
         test::enclosed(room_with_block(0.2)),
         {.error = 0.1, .max_elements = 4000, .rays = 16, .gather_rays = 16},

@@ -136,7 +136,7 @@ TEST_CASE("As the extinction goes to 0 the vacuum radiosity comes out", "[invari
     CHECK(most > 0.0);
 }
 
-TEST_CASE("No light leaks through a partition", "[leak]") {
+TEST_CASE("No light leaks through a partition", "[leak][long]") {
     for (const bool thick : {false, true}) {
         INFO((thick ? "1 mm thick" : "without thickness"));
         Scene scene;

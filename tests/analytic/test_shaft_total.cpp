@@ -10,7 +10,7 @@
 
 using namespace tyndall;
 
-TEST_CASE("Shaft box: J and floor irradiance of all orders against Monte Carlo", "[probe]") {
+TEST_CASE("Shaft box: J and floor irradiance of all orders against Monte Carlo", "[probe][long]") {
     const auto file = test::reference("4g_shaft_total");
     auto scene = cli::read_scene_file(TYNDALL_SOURCE_DIR "/tests/scenes/shaft_box.toml");
     // Probes compute direct light anew and gather the rest: a third of the scene's own goal will

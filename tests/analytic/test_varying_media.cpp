@@ -78,7 +78,7 @@ TEST_CASE("Burns & Christon's cube: flux divergence on the axis", "[solution]") 
     INFO(solution.report.zones << " zones, power " << lost);
 }
 
-TEST_CASE("Varying media: the furnace and closure hold exactly", "[furnace]") {
+TEST_CASE("Varying media: the furnace and closure hold exactly", "[furnace][long]") {
     const Function functions[]{
         [](Point p) { return std::exp(-2.0 * p.z) * (1.0 + std::sin(3.0 * p.x)); },
         // Nothing in half of the room, and a ball of smoke.

@@ -108,7 +108,7 @@ TEST_CASE("What changes decides what is done anew", "[animate]") {
 }
 
 TEST_CASE("Frames that change in emission are sums, and equal full solves within the goal",
-          "[animate]") {
+          "[animate][long]") {
     const test::Workplace place("animate");
     place.write("room.toml", animated_room + "[animation]\nframes = 6\nfps = 2\n" + lamp);
     const auto report = Json::parse(place.good("animate room.toml -o film --json"));
@@ -173,7 +173,7 @@ TEST_CASE("Objects that move keep the room's light, and equal full solves within
     }
 }
 
-TEST_CASE("What cannot be a body is solved anew in every frame, and says why", "[animate]") {
+TEST_CASE("What cannot be a body is solved anew in every frame, and says why", "[animate][long]") {
     const test::Workplace place("animate_no_body");
     const auto reason = [&](const std::string& tracks, const std::string& more) {
         place.write("room.toml", animated_room + "[animation]\nframes = 2\n" + tracks);

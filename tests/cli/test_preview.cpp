@@ -22,7 +22,7 @@ surface = [ { name = "room", material = "grey", room = { min = [0, 0, 0], max = 
             { name = "lamp", material = "lamp", rectangle = { corner = [0.5, 0.5, 2], u = [0, 1, 0], v = [1, 0, 0] } } ]
 medium = [ { name = "haze", extinction = 0.5, albedo = 0.8 } ]
 camera = [ { name = "main", eye = [1.9, 0.1, 1.2], target = [0, 2, 0.8], fov_y = 60, width = 24, height = 24 } ]
-solve = { error = 0.1, rays = 16, gather_rays = 16, element_size = 0.7, max_elements = 4000 }
+solve = { error = 0.3, rays = 16, gather_rays = 16, element_size = 1.0, max_elements = 1500 }
 )";
 const std::string job = "run room.toml --quiet ";
 

@@ -138,7 +138,7 @@ TEST_CASE("a run that is killed goes on from its last finished pass, whenever th
     CHECK(with_pass > 0);
 }
 
-TEST_CASE("a run that is killed again and again comes to its end") {
+TEST_CASE("a run that is killed again and again comes to its end", "[long]") {
     const Whole whole;
     std::mt19937 random(7);
     auto goes_on = arguments("out");

@@ -99,7 +99,7 @@ TEST_CASE("The direct solver refuses what it would take gigabytes for, before an
     CHECK_THAT(outcome.err, Contains("for up to 6000 elements") && Contains("\"gmres\""));
 }
 
-TEST_CASE("A study of solvers draws their histories") {
+TEST_CASE("A study of solvers draws their histories", "[long]") {
     const SolverWorkplace place;
     place.write("study.toml", R"(scene = "box.toml"
 reference = { "solve.solver" = "direct" }

@@ -85,7 +85,7 @@ TEST_CASE("Errors are estimated whatever the refinement, of the picture where th
     CHECK(seen.picture_error->elements < uniform.picture_error->elements);
 }
 
-TEST_CASE("More rays leave less noise, finer elements less of what elements leave") {
+TEST_CASE("More rays leave less noise, finer elements less of what elements leave", "[long]") {
     auto options = few_rays();
     const ErrorParts few = report_of(options).solution_error;
     options.gather_rays = 256;

@@ -203,7 +203,7 @@ TEST_CASE("Ray-traced pairs: errors fall in proportion to the tolerance", "[exch
     CHECK(order > 0.8);
 }
 
-TEST_CASE("Ray-traced pairs: past a blocker", "[exchange]") {
+TEST_CASE("Ray-traced pairs: past a blocker", "[exchange][long]") {
     const auto file = test::reference("2_occluded_factors");
     for (const std::string kappa : {"0", "0.5", "2"}) {
         auto enclosure = test::box_enclosure(

@@ -163,7 +163,7 @@ TEST_CASE("What a body covers is not open", "[moving]") {
     CHECK(volume == Approx(12.0 - std::pow(box_size, 3)).epsilon(2e-3));  // of few points
 }
 
-TEST_CASE("A solve after a body has moved is the full solve's", "[moving]") {
+TEST_CASE("A solve after a body has moved is the full solve's", "[moving][long]") {
     SolveOptions options = cheap();
     options.error = 0.5;
     options.element_size = 1.0;

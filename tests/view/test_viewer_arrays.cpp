@@ -161,7 +161,7 @@ TEST_CASE("A walk over the arrays sees what the line of sight sees", "[view]") {
     CHECK(worst_error(s, a, 3000) < 1e-4);
 }
 
-TEST_CASE("It does so in an open scene, and where extinction varies linearly", "[view]") {
+TEST_CASE("It does so in an open scene, and where extinction varies linearly", "[view][long]") {
     radiosity::Scene scene = test::slit_room();
     scene.environment = {0.5};
     scene.surfaces[test::surface_named(scene, "room.ceiling")].material.reset();
