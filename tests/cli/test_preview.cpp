@@ -24,7 +24,7 @@ medium = [ { name = "haze", extinction = 0.5, albedo = 0.8 } ]
 camera = [ { name = "main", eye = [1.9, 0.1, 1.2], target = [0, 2, 0.8], fov_y = 60, width = 24, height = 24 } ]
 solve = { error = 0.3, rays = 16, gather_rays = 16, element_size = 1.0, max_elements = 1500 }
 )";
-const std::string job = "run room.toml --quiet ";
+const std::string job = "run room.toml --quiet --no-view ";
 
 std::size_t frames_in(const test::Workplace& place, const std::string& folder) {
     std::size_t count = 0;
