@@ -43,8 +43,9 @@ std::string place(const Line& line) {
 void read_lines(const fs::path& file, const fs::path& root, std::vector<Line>& lines) {
     std::ifstream in(file);
     std::string text;
+    const fs::path name = file.lexically_relative(root);
     for (std::size_t number = 1; std::getline(in, text); ++number) {
-        lines.push_back({fs::relative(file, root), number, text});
+        lines.push_back({name, number, text});
     }
 }
 
