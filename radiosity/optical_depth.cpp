@@ -1,6 +1,7 @@
 #include "radiosity/optical_depth.h"
 
 #include <algorithm>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <map>
 
@@ -21,6 +22,20 @@ bool passes(Point x, Direction path, const mesh::ConvexPolygon& polygon) {
         if (turn * glm::dot(m, path) < 0.0) return false;
     }
     return true;
+}
+
+// A ball that holds the corners: its centre, and the square of its radius with room for rounding.
+std::pair<Point, double> ball_around(const std::vector<Point>& corners) {
+    Point low = corners[0], high = corners[0];
+    for (const Point& corner : corners) {
+        low = glm::min(low, corner);
+        high = glm::max(high, corner);
+    }
+    const Point centre = 0.5 * (low + high);
+    double reach2 = 0.0;
+    for (const Point& corner : corners)
+        reach2 = std::max(reach2, glm::dot(corner - centre, corner - centre));
+    return {centre, reach2 * (1.0 + 1e-6)};
 }
 
 }  // namespace
@@ -65,7 +80,9 @@ void OpticalDepth::find_interfaces() {
         for (auto& polygon :
              mesh::convex_merge(mesh.points, triangles, mesh::Facing::kept, tolerance_)) {
             const double offset = glm::dot(polygon.normal, polygon.corners[0]);
-            interfaces_.push_back({std::move(polygon), offset, media.first, media.second});
+            const auto [centre, reach2] = ball_around(polygon.corners);
+            interfaces_.push_back(
+                {std::move(polygon), offset, centre, reach2, media.first, media.second});
         }
 }
 
@@ -98,8 +115,11 @@ void OpticalDepth::operator()(Point x, TetId tet, Direction path, std::span<doub
         const bool from_front = std::abs(start) > tolerance_ ? start > 0.0 : here == face.front;
         const bool to_front = end > 0.0;
         // A path along the plane crosses it nowhere.
-        if (from_front == to_front || start == end || !passes(x, path, face.polygon)) continue;
-        const double beyond = s * (1.0 - std::clamp(start / (start - end), 0.0, 1.0));
+        if (from_front == to_front || start == end) continue;
+        const double share = std::clamp(start / (start - end), 0.0, 1.0);
+        const Direction off = x + share * path - face.centre;
+        if (glm::dot(off, off) > face.reach2 || !passes(x, path, face.polygon)) continue;
+        const double beyond = s * (1.0 - share);
         const auto before = from_front ? face.front : face.back;
         const auto after = from_front ? face.back : face.front;
         if (varies_) {

@@ -44,6 +44,8 @@ class OpticalDepth {
     struct Interface {
         mesh::ConvexPolygon polygon;
         double offset = 0.0;        // dot(normal, p) of its plane
+        Point centre{};             // of a ball that holds it
+        double reach2 = 0.0;        // the square of the ball's radius, rounded up [m^2]
         std::uint32_t front, back;  // media
     };
 

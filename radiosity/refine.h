@@ -171,7 +171,8 @@ class IndirectRefiner {
     Affine linear_part(Node leaf, std::size_t band);
     template <class Node>
     Affine noise_part(Node leaf, std::size_t band);
-    void divide(const std::vector<PatchId>& patches);
+    void divide(const std::vector<PatchId>& patches, const RefineLimits& limits);
+    bool room_for_more(const RefineLimits& limits) const;
     double scatter(ZoneId zone) const;
     double scatter(PatchId patch) const;
     void bisect(ZoneId zone, std::array<int, 2> edge) { mesh_.bisect(zone, edge); }

@@ -135,8 +135,8 @@ RefineResult IndirectRefiner::refine(std::vector<Node> frontier, IndirectSources
             progress && !progress({"indirect light", 1.0 - double(frontier.size()) / pieces,
                                    mesh_.leaf_count(), 0.0});
         result.limited =
-            limits.grow && (mesh_.leaf_count() >= limits.max_elements ||
-                            mesh_.memory() > limits.max_memory || round == limits.max_rounds);
+            limits.grow && (!room_for_more(limits) || mesh_.memory() > limits.max_memory ||
+                            round == limits.max_rounds);
         const bool descend = !result.stopped && !result.limited;
         const double threshold = goal / pieces;
         next.clear();
@@ -146,7 +146,7 @@ RefineResult IndirectRefiner::refine(std::vector<Node> frontier, IndirectSources
             const double share =
                 open_share(enclosure_, forest, node, 0) * importance.of(node) * x * x;
             if (descend && share > threshold && forest[node].longest_edge > limits.smallest_edge &&
-                (limits.grow || !forest.is_leaf(node))) {
+                (!forest.is_leaf(node) || room_for_more(limits))) {
                 if (forest.is_leaf(node)) bisect(node, edge);
                 const Node first = forest[node].first_child;
                 next.insert(next.end(), {first, Node(first.value + 1ull)});
@@ -163,7 +163,7 @@ RefineResult IndirectRefiner::refine(std::vector<Node> frontier, IndirectSources
         extend(forest, sources.fields);
         frontier.swap(next);
     }
-    if constexpr (std::is_same_v<Node, PatchId>) divide(shown);
+    if constexpr (std::is_same_v<Node, PatchId>) divide(shown, limits);
     return result;
 }
 
@@ -180,10 +180,15 @@ RefineResult IndirectRefiner::refine_patches(IndirectSources sources, const Impo
     return refine(coarse_.member_patches(), std::move(sources), importance, goal, limits, progress);
 }
 
+bool IndirectRefiner::room_for_more(const RefineLimits& limits) const {
+    return limits.grow && mesh_.leaf_count() < limits.max_elements;
+}
+
 // Patches are seen as they are: a quadratic that one leaf holds is given the leaves that show it.
-void IndirectRefiner::divide(const std::vector<PatchId>& patches) {
+void IndirectRefiner::divide(const std::vector<PatchId>& patches, const RefineLimits& limits) {
     const Forest& forest = mesh_.forest();
     for (const PatchId patch : patches) {
+        if (!room_for_more(limits)) break;
         if (forest.is_leaf(patch)) mesh_.bisect(patch);
         const PatchId first = forest[patch].first_child;
         for (const PatchId child : {first, PatchId(first.value + 1ull)})

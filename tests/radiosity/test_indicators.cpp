@@ -94,6 +94,21 @@ TEST_CASE("Refinement ends after max_passes rounds, and says so", "[indicators]"
     CHECK(counts[2] > counts[1]);
 }
 
+TEST_CASE("Indirect light keeps to max_elements as direct light does", "[indicators]") {
+    const Enclosure enclosure = lit_room();
+    const std::size_t before = leaves(solve(enclosure, {}));
+    const std::size_t most = 2 * before;
+    for (const char* indicator : {"direct", "indirect"}) {
+        INFO(indicator);
+        const Solution solution = solve(enclosure, {indicator}, {}, most, 1e-3);
+        CHECK(leaves(solution) > before);
+        // What a patch's bisection asks of its neighbours is done to the end.
+        CHECK(leaves(solution) <= most + 20);
+        CHECK(std::any_of(solution.report.warnings.begin(), solution.report.warnings.end(),
+                          [](const std::string& w) { return w.find("at a limit") != w.npos; }));
+    }
+}
+
 TEST_CASE("A caller's indicator bisects where it says", "[indicators]") {
     const Enclosure enclosure = lit_room();
     const double middle = 0.5 * (enclosure.mesh.hull_min.x + enclosure.mesh.hull_max.x);
