@@ -10,6 +10,7 @@
 #include "radiosity/enclosure_emissions.h"
 #include "radiosity/medium_optics.h"
 #include "radiosity/own_tetrahedra.h"
+#include "radiosity/scene_bands.h"
 #include "radiosity/steady_state.h"
 
 namespace tyndall::radiosity {
@@ -268,7 +269,8 @@ bool shines(const SurfaceSide& side) {
            std::ranges::none_of(e, [](double v) { return v < 0.0; });
 }
 
-Enclosure make_enclosure(const Scene& scene, const EnclosureOptions& options) {
+Enclosure make_enclosure(const Scene& given, const EnclosureOptions& options) {
+    const Scene scene = with_all_bands(given);
     const Polygons polygons = collect_polygons(scene);
     if (polygons.list.empty())
         throw InputError("The scene has no surfaces. Add at least one [[surface]].");

@@ -118,11 +118,13 @@ struct EnclosureOptions {
 bool shines(const SurfaceSide& side);
 
 // Purpose: conform the surfaces, tetrahedralize, tell solid from empty from filled, bind optics.
+//   Spectra of one value hold for all bands (scene_bands.h).
 // Errors: mesh::InputError with file:line:column (Scene's `where`) and name: what cannot be meshed;
-//   a medium point in no region, on a wall or outside; two media that claim one region; a power on
-//   a surface without area; a closed region with a source, a flux or heat, but no absorption and no
-//   opening; a file of tetrahedra that cannot be read or does not follow the surfaces; an
-//   extinction below 0 or not finite somewhere, or one that varies beside a heat source.
+//   a spectrum that is missing, or has another number of values than there are bands; a medium
+//   point in no region, on a wall or outside; two media that claim one region; a power on a surface
+//   without area; a closed region with a source, a flux or heat, but no absorption and no opening;
+//   a file of tetrahedra that cannot be read or does not follow the surfaces; an extinction below 0
+//   or not finite somewhere, or one that varies beside a heat source.
 // Cost: dominated by CGAL and TetGen; about 1 s for a thousand facets.
 Enclosure make_enclosure(const Scene& scene, const EnclosureOptions& options = {});
 
