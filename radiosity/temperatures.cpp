@@ -68,13 +68,17 @@ double temperature_of(const SpectralModel& model, const MediumOptics& medium,
 }
 
 double temperature_of(const Solution& s, PatchId patch) {
-    const SurfaceSide& side = s.enclosure->sides[side_of(*s.enclosure, s.forest, patch)];
+    const auto of = side_of(*s.enclosure, s.forest, patch);
+    if (of == none) return std::numeric_limits<double>::quiet_NaN();
+    const SurfaceSide& side = s.enclosure->sides[of];
     return temperature_of(s.enclosure->spectral, side, emission_at(s, patch),
                           incident_at(s, patch));
 }
 
 double temperature_of(const Solution& s, ZoneId zone) {
-    const MediumOptics& medium = s.enclosure->media[medium_of(*s.enclosure, s.forest, zone)];
+    const auto of = medium_of(*s.enclosure, s.forest, zone);
+    if (of == none) return std::numeric_limits<double>::quiet_NaN();
+    const MediumOptics& medium = s.enclosure->media[of];
     return temperature_of(s.enclosure->spectral, medium, emission_at(s, zone),
                           incident_at(s, zone));
 }

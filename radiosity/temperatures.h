@@ -19,7 +19,7 @@ double temperature_of(const SpectralModel& model, const SurfaceSide& side,
 double temperature_of(const SpectralModel& model, const MediumOptics& medium,
                       std::span<const double> emission, std::span<const double> incident);
 
-// The same of a leaf, at its centroid.
+// The same of a leaf, at its centroid; NaN where there is no medium, or a side that faces none.
 double temperature_of(const Solution& solution, PatchId patch);
 double temperature_of(const Solution& solution, ZoneId zone);
 
