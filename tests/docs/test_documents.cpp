@@ -2,6 +2,8 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <regex>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -79,4 +81,23 @@ TEST_CASE("whole scenes in the documents can be read") {
 TEST_CASE("the guide's C++ program is the one that tests/install builds and runs") {
     const std::string program = text_of(root / "tests/install/user.cpp");
     CHECK(text_of(root / "docs/guide/05-cpp-api.md").find(program) != std::string::npos);
+}
+
+TEST_CASE("every equation of the theory is listed with its files") {
+    const auto numbers_in = [](const std::string& text, const std::regex& pattern) {
+        std::set<int> numbers;
+        for (std::sregex_iterator at(text.begin(), text.end(), pattern), end; at != end; ++at) {
+            const int first = std::stoi((*at)[1]);
+            const int last = (*at)[2].matched ? std::stoi((*at)[2]) : first;
+            for (int n = first; n <= last; ++n) numbers.insert(n);
+        }
+        return numbers;
+    };
+    const auto numbered =
+        numbers_in(text_of(root / "docs/theory.md"), std::regex(R"(\\tag\{(\d+)(\d{9})?\})"));
+    // "| (8 – 10) |", "| (2, 3) |"
+    const auto listed = numbers_in(text_of(root / "docs/equations.md"),
+                                   std::regex(R"(\| \((\d+)(?:(?: – |, )(\d+))?\) \|)"));
+    CHECK(numbered.size() > 60);
+    CHECK(numbered == listed);
 }
