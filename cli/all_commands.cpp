@@ -8,6 +8,7 @@ void add_all_commands(Shell& shell) {
     add_solve_command(shell);
     add_render_command(shell);
     add_view_command(shell);
+    add_export_command(shell);
     add_probe_command(shell);
     add_exchange_command(shell);
     add_animate_command(shell);

@@ -66,6 +66,9 @@ void add_render_command(Shell& shell);
 // view_command.cpp
 void add_view_command(Shell& shell);
 
+// export_command.cpp
+void add_export_command(Shell& shell);
+
 // probe_command.cpp
 void add_probe_command(Shell& shell);
 
