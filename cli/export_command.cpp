@@ -6,7 +6,11 @@
 
 #include "cli/commands.h"
 #include "cli/export_source.h"
+#include "exports/coloured_surfaces.h"
+#include "exports/gmsh_file.h"
 #include "exports/mitsuba_scene.h"
+#include "exports/pbrt_scene.h"
+#include "exports/vtu_file.h"
 #include "mesh/file_bytes.h"
 #include "mesh/input_error.h"
 
@@ -24,6 +28,7 @@ struct ExportOptions {
 // A format: how files of it are called, and who makes them.
 struct Format {
     std::string name, extension;
+    bool path_traced;  // takes --camera, --band and --samples
     exports::ExportedFiles (*make)(const ExportSource&, const ExportOptions&);
 };
 
@@ -47,13 +52,48 @@ exports::PathTracerOptions path_tracer_options(const ExportSource& source,
     return result;
 }
 
+// Of formats that hold what elements hold.
+const radiosity::Solution& solved(const ExportSource& source, const ExportOptions& options) {
+    if (!source.solution)
+        throw InputError(
+            fmt::format("'{}' is a scene, and '{}' is to show its solution. Give the folder of a "
+                        "run: tyndall run {} -o out/.",
+                        options.from, options.out, options.from));
+    return *source.solution;
+}
+
+exports::ExportedFiles make_vtu(const ExportSource& source, const ExportOptions& options) {
+    return exports::vtu_file(solved(source, options));
+}
+
+exports::ExportedFiles make_gmsh(const ExportSource& source, const ExportOptions&) {
+    return exports::gmsh_file(*source.enclosure);
+}
+
+exports::ExportedFiles make_obj(const ExportSource& source, const ExportOptions& options) {
+    return exports::coloured_obj(solved(source, options), fs::path(options.out).stem().string(),
+                                 source.settings.tone_map);
+}
+
+exports::ExportedFiles make_ply(const ExportSource& source, const ExportOptions& options) {
+    return exports::coloured_ply(solved(source, options), source.settings.tone_map);
+}
+
 exports::ExportedFiles make_mitsuba(const ExportSource& source, const ExportOptions& options) {
     return exports::mitsuba_scene(*source.enclosure, cameras_of(source, options),
                                   path_tracer_options(source, options));
 }
 
+exports::ExportedFiles make_pbrt(const ExportSource& source, const ExportOptions& options) {
+    return exports::pbrt_scene(*source.enclosure, cameras_of(source, options),
+                               path_tracer_options(source, options));
+}
+
 const std::vector<Format>& formats() {
-    static const std::vector<Format> all{{"mitsuba", ".xml", make_mitsuba}};
+    static const std::vector<Format> all{
+        {"vtu", ".vtu", false, make_vtu},        {"gmsh", ".msh", false, make_gmsh},
+        {"obj", ".obj", false, make_obj},        {"ply", ".ply", false, make_ply},
+        {"mitsuba", ".xml", true, make_mitsuba}, {"pbrt", ".pbrt", true, make_pbrt}};
     return all;
 }
 
@@ -91,6 +131,12 @@ std::size_t write(const fs::path& main, const exports::ExportedFiles& files) {
 
 int export_files(const ExportOptions& options, const CommonFlags& flags) {
     const Format& format = format_of(options);
+    const bool chosen = !options.camera.empty() || options.band || options.samples;
+    if (chosen && !format.path_traced)
+        throw InputError(
+            fmt::format("--camera, --band and --samples are of mitsuba and pbrt; a file of format "
+                        "{} has no use for them. Leave them out.",
+                        format.name));
     const auto source = export_source(options.from, flags);
     const auto files = format.make(source, options);
     const auto bytes = write(options.out, files);
@@ -119,7 +165,11 @@ void add_export_command(Shell& shell) {
     const auto options = std::make_shared<ExportOptions>();
     auto command = shell.add_command(
         "export", "The solution or the room as a file for another program",
-        R"(  tyndall export room.toml -o room.xml)",
+        R"(  tyndall export out/ -o out/room.vtu
+  tyndall export out/ -o room.ply --set render.exposure=1
+  tyndall export room.toml -o room.msh
+  tyndall export room.toml -o room.xml --samples 1024
+  tyndall export out/ -o room.pbrt --camera side)",
         [options](const CommonFlags& flags) { return export_files(*options, flags); });
     add_set_flag(command, shell.flags());
     command

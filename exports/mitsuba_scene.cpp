@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "exports/little_endian.h"
+#include "exports/path_room.h"
 #include "exports/sun_disc.h"
 #include "exports/xml_writer.h"
 #include "mesh/input_error.h"
@@ -29,20 +30,6 @@ std::string triple(const std::array<double, 3>& v) {
 
 std::string triple(const Point& v) {
     return triple(std::array{v.x, v.y, v.z});
-}
-
-bool any(const Spectrum& values) {
-    return std::ranges::any_of(values, [](double v) { return v > 0.0; });
-}
-
-bool differ(const Spectrum& values) {
-    return std::ranges::any_of(values, [&](double v) { return v != values[0]; });
-}
-
-Spectrum scaled(const Spectrum& values, double factor) {
-    Spectrum result;
-    for (const double v : values) result.push_back(factor * v);
-    return result;
 }
 
 class MitsubaWriter {
@@ -269,16 +256,7 @@ class MitsubaWriter {
             write_specular(finish.specular, finish.roughness);
             return;
         }
-        // A share w of the light meets the mirror: rho_s = w s, rho_d = (1 − w) d, s and d ≤ 1.
-        const double least = std::ranges::max(finish.specular);
-        const double most = 1.0 - std::ranges::max(finish.diffuse);
-        if (least > most + 1e-12)
-            throw InputError(fmt::format(
-                "\"{}\": the largest reflectance and the largest specular part, of all bands, add "
-                "up to {:.4g}. Mitsuba blends both by one share for all bands, which needs 1 or "
-                "less. Export one band at a time: --band 0 and so on.",
-                name, least + 1.0 - most));
-        const double share = 0.5 * (least + most);
+        const double share = specular_share(finish, name);
         auto blend = xml_.element("bsdf", {{"type", "blendbsdf"}});
         number("weight", share);
         write_diffuse(scaled(finish.diffuse, 1.0 / (1.0 - share)));

@@ -3,19 +3,13 @@
 #pragma once
 
 #include <span>
-#include <string>
 
 #include "exports/exported_files.h"
-#include "exports/path_room.h"
+#include "exports/path_tracer_options.h"
+#include "radiosity/enclosure.h"
+#include "render/camera.h"
 
 namespace tyndall::exports {
-
-struct PathTracerOptions {
-    std::string title;
-    std::string stem = "scene";       // of the main file's name; parts lie in the folder STEM_parts
-    std::size_t samples = 256;        // of a pixel
-    std::optional<std::size_t> band;  // this one alone; none: all of them
-};
 
 // Purpose: a scene (XML, format 3) whose pixels, rendered by a variant of rgb or mono, are our
 //   radiances [W/m^2/sr]: surfaces as PLY files with materials on both sides and emitters in front,

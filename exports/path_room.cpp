@@ -293,7 +293,7 @@ class RoomMaker {
 }  // namespace
 
 bool Finish::emits() const {
-    return std::ranges::any_of(emission, [](double v) { return v > 0.0; });
+    return any(emission);
 }
 
 PathRoom path_room(const Enclosure& enclosure, const PathRoomOptions& options) {
@@ -305,9 +305,17 @@ std::uint32_t medium_at(const Enclosure& enclosure, Point x) {
     return tet.valid() ? enclosure.medium_of(tet) : none;
 }
 
-std::array<double, 3> rgb(const Spectrum& values) {
-    return values.size() == 3 ? std::array{values[0], values[1], values[2]}
-                              : std::array{values[0], values[0], values[0]};
+double specular_share(const Finish& finish, const std::string& name) {
+    const double least = std::ranges::max(finish.specular);
+    const double most = 1.0 - std::ranges::max(finish.diffuse);
+    if (least > most + 1e-12)
+        throw InputError(fmt::format(
+            "\"{}\": the largest reflectance and the largest specular part, of all bands, add up "
+            "to "
+            "{:.4g}. Path tracers blend both by one share for all bands, which needs 1 or less. "
+            "Export one band at a time: --band 0 and so on.",
+            name, least + 1.0 - most));
+    return 0.5 * (least + most);
 }
 
 std::vector<std::string> plain_names(const std::vector<std::string>& names) {

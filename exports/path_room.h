@@ -2,17 +2,16 @@
 // boundaries, lights. What the writers of their formats share.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "exports/ply_file.h"
+#include "exports/spectra.h"
 #include "radiosity/enclosure.h"
-#include "render/camera.h"
 
 namespace tyndall::exports {
-
-using radiosity::Spectrum;
 
 // What is seen of one side of a wall.
 struct Finish {
@@ -74,8 +73,10 @@ PathRoom path_room(const radiosity::Enclosure& enclosure, const PathRoomOptions&
 // The medium around a camera's eye, as an index into PathRoom::media; none.
 std::uint32_t medium_at(const radiosity::Enclosure& enclosure, mesh::Point x);
 
-// Red, green and blue of a room's values: one band three times.
-std::array<double, 3> rgb(const Spectrum& values);
+// Purpose: the share w of light that meets the specular part where a format blends two materials by
+//   one number: rho_s = w s and rho_d = (1 − w) d with s and d at most 1 in every band.
+// Errors: mesh::InputError where there is none; `name` is the surface's.
+double specular_share(const Finish& finish, const std::string& name);
 
 // Names that any format takes, letters, digits and _, each another one.
 std::vector<std::string> plain_names(const std::vector<std::string>& names);

@@ -1,195 +1,37 @@
 // The elements as VTKHDF, version 1.0:
 // https://docs.vtk.org/en/latest/design_documents/VTKFileFormats.html
-#include <array>
-#include <numbers>
-
-#include "radiosity/leaves_in_order.h"
+#include "radiosity/element_grid.h"
 #include "radiosity/solution_parts.h"
-#include "radiosity/temperatures.h"
 
 namespace tyndall::radiosity {
-namespace {
-
-using std::numbers::pi;
-constexpr std::uint8_t vtk_triangle = 5, vtk_tetra = 10;
-
-// x = e + a H of an element, with what of it is known.
-struct Equation {
-    double emission, scatter;
-    Affine incident;  // H
-
-    Affine radiance() const {
-        return {scatter * incident.gradient, emission + scatter * incident.constant};
-    }
-};
-
-template <class Node>
-Equation equation(const Solution& s, Node node, std::size_t band) {
-    const Affine &direct = s.direct.at(node, band), &indirect = s.indirect.at(node, band);
-    return {emission_of(s, node, band),
-            scatter_of(s, node, band),
-            {direct.gradient + indirect.gradient, direct.constant + indirect.constant}};
-}
-
-// The arrays of the grid, filled element by element.
-class Grid {
-  public:
-    explicit Grid(const Solution& solution)
-        : s_(solution), e_(*solution.enclosure), bands_(e_.bands) {
-        const Elements elements = leaves_in_order(e_, s_.forest);
-        for (const PatchId patch : elements.patches) add(patch);
-        for (const ZoneId zone : elements.zones) add(zone);
-    }
-
-    void write(Hdf5Writer& file) const {
-        file.group("/VTKHDF");
-        file.attribute("/VTKHDF", "Version", std::vector<std::int64_t>{1, 0});
-        file.attribute("/VTKHDF", "Type", std::string("UnstructuredGrid"));
-        using Count = std::vector<std::int64_t>;
-        file.array("/VTKHDF/NumberOfPoints", Count{static_cast<std::int64_t>(points_.size() / 3)});
-        file.array("/VTKHDF/NumberOfCells", Count{static_cast<std::int64_t>(types_.size())});
-        file.array("/VTKHDF/NumberOfConnectivityIds",
-                   Count{static_cast<std::int64_t>(connectivity_.size())});
-        file.array("/VTKHDF/Points", points_, 3);
-        file.array("/VTKHDF/Connectivity", connectivity_);
-        file.array("/VTKHDF/Offsets", offsets_);
-        file.array("/VTKHDF/Types", types_);
-        file.group("/VTKHDF/PointData");
-        file.array("/VTKHDF/PointData/radiance", radiance_, bands_);
-        write_cells(file);
-        file.group("/VTKHDF/FieldData");
-        std::vector<std::string> names;
-        for (const auto& side : e_.sides) names.push_back(side.name);
-        for (const auto& medium : e_.media) names.push_back(medium.name);
-        if (!names.empty()) file.texts("/VTKHDF/FieldData/names", names);
-    }
-
-  private:
-    void write_cells(Hdf5Writer& file) const {
-        const std::string folder = "/VTKHDF/CellData";
-        file.group(folder);
-        for (std::size_t k = 0; k < quantities; ++k)
-            file.array(folder + "/" + quantity_names[k], values_[k], bands_);
-        file.array(folder + "/source_radiance_gradient", gradient_, 3 * bands_);
-        if (e_.thermal) file.array(folder + "/temperature", temperature_);
-        file.array(folder + "/error", error_);
-        file.array(folder + "/level", level_);
-        file.array(folder + "/parent", parent_);
-        file.array(folder + "/kind", kind_);
-        file.array(folder + "/name_id", name_id_);
-    }
-
-    template <class Node>
-    void add_common(Node node, Point centroid) {
-        const auto& corners = s_.forest[node].corners;
-        for (const VertexId corner : corners) {
-            const Point p = s_.forest.point(corner);
-            connectivity_.push_back(static_cast<std::int64_t>(points_.size() / 3));
-            points_.insert(points_.end(), {p.x, p.y, p.z});
-            for (std::size_t b = 0; b < bands_; ++b)
-                radiance_.push_back(equation(s_, node, b).radiance().at(p));
-        }
-        offsets_.push_back(static_cast<std::int64_t>(connectivity_.size()));
-        const auto parent = s_.forest[node].parent;
-        level_.push_back(static_cast<std::int32_t>(s_.forest[node].level));
-        parent_.push_back(parent.valid() ? static_cast<std::int64_t>(parent.value) : -1);
-        for (std::size_t b = 0; b < bands_; ++b) {
-            const Equation q = equation(s_, node, b);
-            const Affine radiance = q.radiance();
-            const double x = radiance.at(centroid);
-            for (int k = 0; k < 3; ++k) gradient_.push_back(radiance.gradient[k]);
-            values_[radiosity].push_back(pi * x);
-            values_[source_radiance].push_back(x);
-            values_[incident].push_back(q.incident.at(centroid));
-            values_[albedo].push_back(q.scatter);
-        }
-        if (e_.thermal) temperature_.push_back(temperature_of(s_, node));
-    }
-
-    // Of the material: a of the one equation is another where a flux is given.
-    double rho(PatchId patch, std::size_t band) const {
-        const SurfaceSide& side = e_.sides[side_of(e_, s_.forest, patch)];
-        return side.emissivity.empty() ? side.reflectance[band] : 1.0 - side.emissivity[band];
-    }
-
-    void add(PatchId patch) {
-        const Point centroid = s_.forest.centroid(patch);
-        add_common(patch, centroid);
-        types_.push_back(vtk_triangle);
-        kind_.push_back(0);
-        error_.push_back(s_.patch_error[patch.value]);
-        name_id_.push_back(static_cast<std::int32_t>(side_of(e_, s_.forest, patch)));
-        for (std::size_t b = 0; b < bands_; ++b) {
-            const Equation q = equation(s_, patch, b);
-            const double h = q.incident.at(centroid);
-            values_[irradiance].push_back(pi * h);
-            // x − H, written so that nothing cancels where everything is reflected.
-            values_[net_flux].push_back(pi * (q.emission - (1.0 - q.scatter) * h));
-            values_[flux_divergence].push_back(0.0);
-            values_[emission].push_back(q.emission + (q.scatter - rho(patch, b)) * h);
-            values_[extinction].push_back(0.0);
-        }
-    }
-
-    void add(ZoneId zone) {
-        const Point centroid = s_.forest.centroid(zone);
-        add_common(zone, centroid);
-        types_.push_back(vtk_tetra);
-        kind_.push_back(1);
-        error_.push_back(s_.zone_error[zone.value]);
-        const auto medium = medium_of(e_, s_.forest, zone);
-        name_id_.push_back(static_cast<std::int32_t>(e_.sides.size() + medium));
-        const MediumOptics& optics = e_.media[medium];
-        for (std::size_t b = 0; b < bands_; ++b) {
-            const Equation q = equation(s_, zone, b);
-            const auto [kappa, centre] = extinction_in(e_, s_.forest, zone, b);
-            const double h = q.incident.at(centre);
-            values_[irradiance].push_back(0.0);
-            values_[net_flux].push_back(0.0);
-            // 4 pi kappa_a (J_e − H), likewise.
-            values_[flux_divergence].push_back(4.0 * pi * kappa *
-                                               (q.emission - (1.0 - q.scatter) * h));
-            // J_e, of a heated medium too: (1 − Omega) J_e = x − Omega H.
-            const double absorbed =  // 1 − Omega
-                optics.extinction[b] > 0.0 ? optics.absorption[b] / optics.extinction[b] : 0.0;
-            values_[emission].push_back(
-                absorbed > 0.0 ? (q.emission + (q.scatter - (1.0 - absorbed)) * h) / absorbed
-                               : 0.0);
-            values_[extinction].push_back(kappa);
-        }
-    }
-
-    enum Quantity {
-        radiosity,
-        source_radiance,
-        incident,
-        irradiance,
-        net_flux,
-        flux_divergence,
-        emission,
-        extinction,
-        albedo,
-        quantities
-    };
-    static constexpr std::array<const char*, quantities> quantity_names{
-        "radiosity",       "source_radiance", "incident",   "irradiance", "net_flux",
-        "flux_divergence", "emission",        "extinction", "albedo"};
-
-    const Solution& s_;
-    const Enclosure& e_;
-    std::size_t bands_;
-    std::vector<double> points_, radiance_, gradient_, temperature_;
-    std::vector<std::int64_t> connectivity_, offsets_{0}, parent_;
-    std::vector<std::uint8_t> types_, kind_;
-    std::vector<std::int32_t> level_, name_id_;
-    std::vector<float> error_;
-    std::array<std::vector<double>, quantities> values_;
-};
-
-}  // namespace
 
 void write_grid(Hdf5Writer& file, const Solution& solution) {
-    Grid(solution).write(file);
+    const ElementGrid grid = element_grid(solution);
+    file.group("/VTKHDF");
+    file.attribute("/VTKHDF", "Version", std::vector<std::int64_t>{1, 0});
+    file.attribute("/VTKHDF", "Type", std::string("UnstructuredGrid"));
+    const auto count = [&](const std::string& name, std::size_t number) {
+        file.array("/VTKHDF/" + name, std::vector{static_cast<std::int64_t>(number)});
+    };
+    count("NumberOfPoints", grid.point_count());
+    count("NumberOfCells", grid.cell_count());
+    count("NumberOfConnectivityIds", grid.connectivity.size());
+    file.array("/VTKHDF/Points", grid.points, 3);
+    file.array("/VTKHDF/Connectivity", grid.connectivity);
+    file.array("/VTKHDF/Offsets", grid.offsets);
+    file.array("/VTKHDF/Types", grid.types);
+    file.group("/VTKHDF/PointData");
+    file.array("/VTKHDF/PointData/radiance", grid.radiance, grid.bands);
+    const std::string folder = "/VTKHDF/CellData";
+    file.group(folder);
+    for (const CellColumn& column : grid.cells)
+        std::visit(
+            [&](const auto& values) {
+                file.array(folder + "/" + column.name, values, column.components);
+            },
+            column.values);
+    file.group("/VTKHDF/FieldData");
+    if (!grid.names.empty()) file.texts("/VTKHDF/FieldData/names", grid.names);
 }
 
 }  // namespace tyndall::radiosity

@@ -5,6 +5,8 @@
 #include <bit>
 #include <stdexcept>
 
+#include "view/base64.h"
+
 namespace tyndall::view {
 namespace {
 
@@ -23,21 +25,6 @@ std::string gzip(const std::string& bytes) {
     deflateEnd(&stream);
     if (status != Z_STREAM_END) throw std::runtime_error("zlib did not compress to the end.");
     return result;
-}
-
-std::string base64(const std::string& bytes) {
-    constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    text.reserve(4 * (bytes.size() / 3 + 1));
-    for (std::size_t at = 0; at < bytes.size(); at += 3) {
-        std::uint32_t group = 0;
-        const std::size_t count = std::min<std::size_t>(3, bytes.size() - at);
-        for (std::size_t k = 0; k < 3; ++k)
-            group = group << 8 | (k < count ? static_cast<std::uint8_t>(bytes[at + k]) : 0u);
-        for (std::size_t k = 0; k < 4; ++k)
-            text += k <= count ? digits[group >> (18 - 6 * k) & 63] : '=';
-    }
-    return text;
 }
 
 }  // namespace
