@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "cli/file_series.h"
 #include "mesh/file_bytes.h"
 #include "mesh/input_error.h"
 #include "radiosity/resources.h"
@@ -130,11 +131,11 @@ std::string AnimationRecord::text(const RunFacts& facts, std::size_t frames) con
 }
 
 void AnimationRecord::write(const RunFacts& facts, std::size_t frames) const {
-    Json series{{"file-series-version", "1.0"}, {"files", Json::array()}};
+    std::vector<std::pair<std::string, double>> series;
     for (const auto& [frame, record] : frames_)
-        series["files"].push_back({{"name", "solutions/" + solution(frame).filename().string()},
-                                   {"time", static_cast<double>(frame) / fps_}});
-    mesh::write_file(folder_ / "solutions.vtkhdf.series", text_of(series));
+        series.emplace_back("solutions/" + solution(frame).filename().string(),
+                            static_cast<double>(frame) / fps_);
+    mesh::write_file(folder_ / "solutions.vtkhdf.series", file_series(series));
     mesh::write_file(folder_ / "report.json", text(facts, frames));
 }
 

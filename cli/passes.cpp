@@ -7,7 +7,9 @@
 #include <set>
 #include <sstream>
 
+#include "cli/file_series.h"
 #include "cli/job.h"
+#include "mesh/file_bytes.h"
 #include "mesh/input_error.h"
 #include "radiosity/solution_file.h"
 
@@ -30,6 +32,14 @@ std::map<int, fs::path> pass_files(const fs::path& folder) {
             files[number] = entry.path();
     }
     return files;
+}
+
+// All passes of the folder, for ParaView; the number of a pass is its time.
+void write_series(const fs::path& folder) {
+    std::vector<std::pair<std::string, double>> series;
+    for (const auto& [number, path] : pass_files(folder / "passes"))
+        series.emplace_back("passes/" + path.filename().string(), number);
+    mesh::write_file(folder / "passes.vtkhdf.series", file_series(series));
 }
 
 std::shared_ptr<const radiosity::KeptMesh> mesh_of(radiosity::Solution&& solution) {
@@ -93,12 +103,15 @@ PassPlan plan_passes(const SceneFile& file, const fs::path& folder, const PassCh
         plan.passes.begin_with = mesh_to_go_on_with(plan.resumed_from, file);
     }
     prepare_folder(folder_of_passes);
-    if (!choice.resume)
+    if (!choice.resume) {
+        fs::remove(folder / "passes.vtkhdf.series");  // first: it never names what is not there
         for (const auto& [number, old] : files) fs::remove(old);
-    plan.passes.save = [folder_of_passes, attachments = attachments_json(file),
+    }
+    plan.passes.save = [folder, folder_of_passes, attachments = attachments_json(file),
                         number = last](const radiosity::Solution& solution) mutable {
         radiosity::write_solution(folder_of_passes / fmt::format("{:02}.vtkhdf", ++number),
                                   solution, attachments);
+        write_series(folder);
     };
     return plan;
 }

@@ -66,6 +66,12 @@ struct Left {
                 CHECK_THAT(mesh::read_file(path), Contains("IEND"));
             } else if (path.extension() == ".html") {
                 CHECK(mesh::read_file(path).ends_with("</html>\n"));
+            } else if (path.extension() == ".series") {
+                const auto files = Json::parse(mesh::read_file(path)).at("files");
+                for (std::size_t k = 0; k < files.size(); ++k) {
+                    CHECK(files[k].at("time") == k + 1);
+                    CHECK(fs::exists(place.path / out / files[k].at("name")));
+                }
             } else if (path.extension() == ".json") {
                 CHECK_NOTHROW(Json::parse(mesh::read_file(path)));
             } else {
@@ -248,6 +254,10 @@ TEST_CASE("a run goes on with the same scene, settings and files alone") {
     place.write("room.toml", "# the same\n" + scene);
     CHECK_THAT(place.good(run + " --resume"), Contains("resumed  out/passes/02.vtkhdf"));
     CHECK(place.has("out/passes/04.vtkhdf"));
+    const auto series = Json::parse(place.read("out/passes.vtkhdf.series"));
+    REQUIRE(series.at("files").size() == 4);
+    CHECK(series.at("files")[3].at("name") == "passes/04.vtkhdf");
+    CHECK(series.at("files")[3].at("time") == 4.0);
 }
 
 TEST_CASE("damaged solutions and passes are refused with one message by every command") {
