@@ -56,7 +56,7 @@ struct PathRoom {
 };
 
 struct PathRoomOptions {
-    std::optional<std::size_t> band;  // this one alone; none: all of them
+    std::optional<std::size_t> band{};  // this one alone; none: all of them
     // Walls whose sides differ become two sheets, a hundred-thousandth of the room's size apart:
     // for formats with one material for both sides. Where both sides emit that is done in any case.
     bool one_material = false;

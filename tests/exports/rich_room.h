@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "mesh/input_error.h"
+#include "support/catch.h"
 #include "support/path_scenes.h"
 
 namespace tyndall::test {
