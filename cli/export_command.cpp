@@ -121,7 +121,7 @@ std::size_t write(const fs::path& main, const exports::ExportedFiles& files) {
     std::size_t bytes = files.main.size();
     for (const auto& file : files.beside) {
         const fs::path path = main.parent_path() / file.name;
-        prepare_folder(path.parent_path());
+        if (path.has_parent_path()) prepare_folder(path.parent_path());
         mesh::write_file(path, file.bytes);
         bytes += file.bytes.size();
     }

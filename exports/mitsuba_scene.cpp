@@ -243,15 +243,16 @@ class MitsubaWriter {
         if (!(sheet.front == *sheet.back)) write_finish(*sheet.back, sheet.name);
     }
 
-    void write_finish(const Finish& finish, const std::string& name) {
+    void write_finish(const Finish& own, const std::string& name) {
+        const Finish finish = with_lost_light(own);
         if (!any(finish.specular)) {
             write_diffuse(finish.diffuse);
             return;
         }
         if (finish.roughness > 0.0)
             note_once(
-                "Glossy surfaces: what microfacets reflect more than once, which Tyndall counts, "
-                "Mitsuba's roughconductor loses (a few per cent of it at roughness 0.5).");
+                "Glossy surfaces: what microfacets reflect more than once, which Mitsuba loses, "
+                "is in their diffuse part: right in the mean, not in every direction.");
         if (!any(finish.diffuse)) {
             write_specular(finish.specular, finish.roughness);
             return;

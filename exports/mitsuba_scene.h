@@ -17,8 +17,8 @@ namespace tyndall::exports {
 //   environment, and every camera, the first one given first. Integrator: volpath, without a limit
 //   of bounces; volpathmis where extinctions of bands differ.
 // A sun of a finite angle becomes a disc ten thousand rooms away.
-// Noted: a spot's soft edge, which falls linearly there; glossy lobes, which lose what microfacets
-//   reflect twice.
+// Noted: a spot's soft edge, which falls linearly there; what microfacets reflect more than once
+//   (with_lost_light).
 // Errors: those of path_room; mesh::InputError for a panorama, and for media that emit, which
 //   Mitsuba has no word for.
 // Cost: O(facets + tets).

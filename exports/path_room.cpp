@@ -10,6 +10,7 @@
 #include <tuple>
 
 #include "mesh/input_error.h"
+#include "render/glossy_lobe.h"
 
 namespace tyndall::exports {
 namespace {
@@ -316,6 +317,22 @@ double specular_share(const Finish& finish, const std::string& name) {
             "Export one band at a time: --band 0 and so on.",
             name, least + 1.0 - most));
     return 0.5 * (least + most);
+}
+
+Finish with_lost_light(Finish finish) {
+    if (finish.roughness <= 0.0 || !any(finish.specular)) return finish;
+    const render::GlossyLobe lobe(finish.roughness);
+    double lost = 0.0;
+    constexpr std::size_t steps = 256;
+    for (std::size_t k = 0; k < steps; ++k) {
+        const double cosine = (double(k) + 0.5) / steps;
+        lost += 2.0 * cosine * (1.0 - lobe.single(cosine)) / steps;
+    }
+    const double most = 1.0 - std::ranges::max(finish.specular);
+    for (std::size_t b = 0; b < finish.diffuse.size(); ++b)
+        finish.diffuse[b] = std::max(finish.diffuse[b],
+                                     std::min(most, finish.diffuse[b] + lost * finish.specular[b]));
+    return finish;
 }
 
 std::vector<std::string> plain_names(const std::vector<std::string>& names) {

@@ -199,8 +199,8 @@ class PbrtWriter {
         print("Shape \"plymesh\" \"string filename\" \"{}\"\nAttributeEnd\n", path);
     }
 
-    void define_material(const Finish& finish, const std::string& name,
-                         const std::string& surface) {
+    void define_material(const Finish& own, const std::string& name, const std::string& surface) {
+        const Finish finish = with_lost_light(own);
         const bool specular = any(finish.specular);
         if (!specular || !any(finish.diffuse)) {
             specular ? define_specular(name, finish.specular, finish.roughness)
