@@ -60,7 +60,10 @@ def actor(data, points, array, decades, edges=False):
     mapper.SetInputData(data)
     source = data.GetPointData() if points else data.GetCellData()
     high = float(vtk_to_numpy(source.GetArray(array)).max())
-    mapper.SetScalarModeToUsePointFieldData() if points else mapper.SetScalarModeToUseCellFieldData()
+    if points:
+        mapper.SetScalarModeToUsePointFieldData()
+    else:
+        mapper.SetScalarModeToUseCellFieldData()
     mapper.SelectColorArray(array)
     colours = vtk.vtkLookupTable()
     colours.SetNumberOfColors(256)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Exported scenes in Mitsuba 3: mitsuba_pictures.py TYNDALL SCENES FOLDER [--pictures]
+"""Exported scenes in Mitsuba 3: mitsuba_pictures.py TYNDALL PROJECT FOLDER [--pictures]
 
 Renders what `tyndall export` writes of scenes by Mitsuba (`pip install mitsuba`), and compares the
 picture with ours, followed by our own paths, within the noise of both: block by block, and in the
@@ -19,9 +19,13 @@ BLOCK = 8     # pixels
 
 # A scene, settings for a small picture, samples of ours and of each batch of Mitsuba's.
 SCENES = [
-    ("window_shafts", ["camera.main.width=80", "camera.main.height=56"], 256, 8),
-    ("cornell_fog", ["camera.main.width=48", "camera.main.height=48"], 512, 32),
-    ("columns_obj", ["camera.main.width=64", "camera.main.height=48"], 256, 16),
+    ("examples/scenes/window_shafts", ["camera.main.width=80", "camera.main.height=56"], 256, 8),
+    ("examples/scenes/cornell_fog", ["camera.main.width=48", "camera.main.height=48"], 512, 32),
+    ("examples/scenes/columns_obj", ["camera.main.width=64", "camera.main.height=48"], 256, 16),
+    # Fog that thins with height: a grid volume.
+    ("examples/scenes/ground_fog", ["camera.main.width=64", "camera.main.height=48"], 128, 8),
+    # All kinds of lights, mirrors, gloss, phase functions, extinctions that differ in colour.
+    ("tests/scenes/many_lights", [], 256, 12),
 ]
 # The solution has no part in a picture by paths: as little of it as there can be.
 QUICK = ["solve.refinement=uniform", "solve.max_elements=300", "solve.rays=16",
@@ -108,7 +112,7 @@ def write_png(pictures, ours, theirs, path):
     Image.fromarray(codes).resize((codes.shape[1] * 5, codes.shape[0] * 5), 0).save(path)
 
 
-def main(tyndall, scenes, folder, with_pictures):
+def main(tyndall, project, folder, with_pictures):
     try:
         import mitsuba as mi
         import numpy as np
@@ -119,8 +123,9 @@ def main(tyndall, scenes, folder, with_pictures):
     folder.mkdir(parents=True)
     pictures = Pictures(mi, np, tyndall, folder)
     results = {}
-    for name, keys, samples, batch in SCENES:
-        scene = scenes / f"{name}.toml"
+    for path, keys, samples, batch in SCENES:
+        scene = project / f"{path}.toml"
+        name = scene.stem
         ours, error = pictures.ours(scene, keys, samples, name)
         theirs = pictures.theirs(scene, keys, batch, name)
         if with_pictures:

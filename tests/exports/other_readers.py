@@ -95,9 +95,12 @@ def probed_by_vtk(vtk, grid, places):
     probe.SetSourceData(tets_alone(vtk, grid))
     # VTK's default looks from the nearest point on, and never leaves that point's cell where every
     # cell has points of its own.
-    strategy = vtk.vtkCellLocatorStrategy()
-    strategy.SetCellLocator(vtk.vtkStaticCellLocator())
-    probe.SetFindCellStrategy(strategy)
+    if hasattr(probe, "SetCellLocator"):  # VTK 9.7
+        probe.SetCellLocator(vtk.vtkStaticCellLocator())
+    else:
+        strategy = vtk.vtkCellLocatorStrategy()
+        strategy.SetCellLocator(vtk.vtkStaticCellLocator())
+        probe.SetFindCellStrategy(strategy)
     probe.Update()
     output = probe.GetOutput().GetPointData()
     check(all(output.GetArray("vtkValidPointMask").GetValue(k) for k in range(len(places))),
