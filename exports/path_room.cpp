@@ -312,8 +312,7 @@ double specular_share(const Finish& finish, const std::string& name) {
     if (least > most + 1e-12)
         throw InputError(fmt::format(
             "\"{}\": the largest reflectance and the largest specular part, of all bands, add up "
-            "to "
-            "{:.4g}. Path tracers blend both by one share for all bands, which needs 1 or less. "
+            "to {:.4g}. Path tracers blend both by one share for all bands, which needs 1 or less. "
             "Export one band at a time: --band 0 and so on.",
             name, least + 1.0 - most));
     return 0.5 * (least + most);

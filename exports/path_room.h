@@ -78,9 +78,8 @@ std::uint32_t medium_at(const radiosity::Enclosure& enclosure, mesh::Point x);
 // Errors: mesh::InputError where there is none; `name` is the surface's.
 double specular_share(const Finish& finish, const std::string& name);
 
-// Purpose: a glossy finish for programs whose microfacets lose what they reflect more than once:
-// the
-//   mean of that, of all directions, is added to the diffuse part, as far as it fits.
+// Purpose: a glossy finish for programs whose microfacets lose what they reflect more than once.
+//   The mean of that over all directions is added to the diffuse part, as far as it fits.
 // Equation: rho_s (1 − ⟨E⟩), E of (52).
 Finish with_lost_light(Finish finish);
 
