@@ -75,8 +75,12 @@ void add_view_command(Shell& shell) {
   tyndall view out/ -o talk.html --set camera.main.fov_y=70)",
         [options](const CommonFlags& flags) { return make_view(*options, flags); });
     add_set_flag(command, shell.flags());
-    command.option("OUT", options->solution, "Folder of a run, or a solution file").required();
-    command.option("-o,--output", options->out, "Page; else view.html beside the solution");
+    command.option("OUT", options->solution, "Folder of a run, or a solution file")
+        .required()
+        .file({"vtkhdf"})
+        .folder();
+    command.option("-o,--output", options->out, "Page; else view.html beside the solution")
+        .file({"html"});
 }
 
 }  // namespace tyndall::cli
