@@ -149,7 +149,7 @@ to walk through, a solution and a report.
 {3}.SH COMMON FLAGS
 Every command that has a use for one takes it.
 {4}{5})",
-        TYNDALL_VERSION, escaped(program.purpose), examples_text(program.examples), commands,
+        program.version, escaped(program.purpose), examples_text(program.examples), commands,
         common_text(program), ending);
 }
 

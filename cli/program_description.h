@@ -25,7 +25,7 @@ struct CommandDescription {
 };
 
 struct ProgramDescription {
-    std::string purpose;
+    std::string purpose, version;
     std::vector<std::string> examples;
     std::vector<CommandDescription> commands;
 

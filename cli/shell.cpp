@@ -260,7 +260,8 @@ int Shell::run(int argc, const char* const* argv) {
 }
 
 ProgramDescription Shell::description() const {
-    ProgramDescription program{app_->get_description(), example_lines(app_->get_footer()), {}};
+    ProgramDescription program{
+        app_->get_description(), TYNDALL_VERSION, example_lines(app_->get_footer()), {}};
     for (const auto* command : app_->get_subcommands({})) {
         CommandDescription d{command->get_name(),
                              command->get_description(),
