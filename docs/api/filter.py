@@ -37,8 +37,8 @@ CONVENTIONS = {
     "resize": "Makes room, with zeros.",
 }
 FUNCTION = re.compile(r"(operator ?[^\s(]+|operator\(\)|~?\w+)\(")
-ACCESSOR = re.compile(r"\{ return \*?\w+_(\.\w+\(\))?; \}$")
-NAME = re.compile(r"(?:using|inline constexpr[\w:<>,* ]*?|enum class|struct|class) (\w+)\b(?! ?::)")
+ACCESSOR = re.compile(r"\{ return \*?\w+_(\.\w+(\(\))?)?; \}$")
+NAME = re.compile(r"(?:using|enum class|struct|class) (\w+)\b(?! ?::)|inline constexpr .*?\b(\w+)(?= = |\{|;)")
 FOLDER = pathlib.Path(__file__).resolve().parent
 
 
@@ -149,11 +149,11 @@ class Filter:
     def words(self, line):
         """Of a declaration without a comment: its entry in words.txt, or what is so everywhere."""
         around = [name for _, name in self.types]
-        function = FUNCTION.search(line)
+        function = FUNCTION.search(re.sub(r"(?<!operator )\b(double|void|bool|float)\(", "<", line))
         plain = re.sub(r"^template <.*?> ?", "", line.strip())
         found = NAME.search(plain) if plain.startswith(("using", "inline constexpr", "enum", "struct", "class")) else None
-        name = found.group(1) if found else function.group(1) if function else None
-        member = re.search(r"(\w+)(,.*| = .*|\{.*\})?[;,]$", line.strip())
+        name = (found.group(1) or found.group(2)) if found else function.group(1) if function else None
+        member = re.search(r"(\w+)(,.*| = .*|\{.*\}|\[.*\])?[;,]$", line.strip())
         if name is None and around:
             return [BY_NAME] if member else []
         if name is None:
@@ -164,7 +164,7 @@ class Filter:
             if key in WORDS:
                 self.used.add(key)
                 return [WORDS[key]]
-        if around and name == around[-1]:
+        if around and name == around[-1].split("::")[-1]:
             return ["Constructs it; the type says from what."]
         if around and name in CONVENTIONS:
             return [CONVENTIONS[name]]
@@ -183,10 +183,13 @@ class Filter:
         declares = not self.open and not NO_DECLARATION.match(line)
         above = []  # the comment that is to stand above it
         if declares and not self.fresh:
-            shared = self.above if "(" in line else []
+            whole = line
+            if line.lstrip().startswith("template"):
+                whole += " " + self.lines[self.k + 1].strip()
+            shared = self.above if re.search(r"\(|\busing\b", whole) else []
             if not self.comment_at_end():
-                above = shared or self.words(line)
-            if not above and TYPE.match(line) and not indent and self.about_file:
+                above = shared or self.words(whole)
+            if not above and TYPE.match(whole) and not indent and self.about_file:
                 above, self.about_file = self.about_file, []
         self.k += 1
         texts = self.trailing_text(found) if found else []
@@ -202,14 +205,15 @@ class Filter:
             texts_here = [own_name(one)] if above == [BY_NAME] else above
             self.out += block(texts_here, indent) + [one]
         if texts:
-            self.out[-1] += f"  ///< {safe(texts[0])}"
-            self.out += [f"{indent}///< {safe(text)}" for text in texts[1:]]
+            self.out[-1] += "  ///< " + " ".join(safe(text) for text in texts)
         self.fresh = False
         self.enter(line, code, indent)
 
     def enter(self, line, code, indent):
         """Keeps track of the types around, and passes over the bodies of functions."""
         type_here = TYPE.match(line.strip())
+        if line.strip().startswith("}"):
+            self.open = False
         if line.strip().startswith("}") or type_here:
             while self.types and self.types[-1][0] >= len(indent):
                 self.types.pop()
@@ -221,9 +225,18 @@ class Filter:
             self.above = []
         elif plain.endswith("{") and not plain.lstrip().startswith(("namespace", "extern")):
             begin = indent if not self.open else self.open_indent
-            while self.k < len(self.lines) and not self.lines[self.k].startswith(begin + "}"):
+            values = ")" not in plain and not self.open
+            while self.k < len(self.lines):
+                body = self.lines[self.k]
+                if body.endswith("};") if values else body.startswith(begin + "}"):
+                    break
+                self.out.append(body)
+                self.k += 1
+            if values:  # the last of them is no declaration
                 self.out.append(self.lines[self.k])
                 self.k += 1
+                self.open = False
+                return
         was_open = self.open
         self.open = not NO_DECLARATION.match(line) and not re.search(
             r"[;{}:]$|^\s*template <.*>$", plain) and not (self.types and plain.endswith(",") and not was_open and "(" not in plain)
@@ -236,6 +249,8 @@ class Filter:
                 self.above, self.fresh = [], False
                 self.out.append("")
                 self.k += 1
+            elif self.lines[self.k].startswith("template") and "struct std::" in self.lines[self.k + 1]:
+                self.k = self.lines.index("};", self.k) + 1  # what std asks for is no part of ours
             elif WHOLE.match(self.lines[self.k]):
                 self.whole()
             else:
