@@ -15,7 +15,7 @@ using radiosity::SolveOptions;
 // The trial's goal and rays.
 constexpr double looser = 4.0;
 constexpr std::size_t fewer_rays = 8, fewer_gather_rays = 4;
-constexpr double trial_seconds = 8.0;  // of wall time, at most
+constexpr double trial_seconds = 10.0;  // of CPU time, at most
 constexpr std::size_t trial_start =
     8000;  // elements; where a solve begins with more, a coarser one
 
@@ -27,6 +27,7 @@ constexpr double entry_growth = 0.8;    // entries of a row ~ rays^entry_growth
 // Bytes that a leaf takes, and an entry: column and value, and a moment where elements are linear.
 constexpr double leaf_bytes = 800.0, leaf_band_bytes = 300.0;
 constexpr double entry_bytes = 8.0, moment_bytes = 12.0, smoothing_bytes = 37.0;
+constexpr double row_growth = 2.2;      // at the peak: rows are lists that grow by doubling
 constexpr double smoothing_time = 2.5;  // more than the rows themselves take
 
 constexpr std::size_t every = 4;     // row and column of the picture
@@ -68,6 +69,21 @@ SampledRows sample_rows(const radiosity::Discretization& d, const SolveOptions& 
     }
 }
 
+// The trial's solution: it ends when its time is over. CPU time, as a busy machine is no reason to
+// know less.
+radiosity::Solution solve_trial(const SceneFile& file,
+                                std::shared_ptr<const radiosity::Enclosure> enclosure,
+                                const SolveOptions& options, ProgressLine& progress) {
+    std::optional<radiosity::View> view;
+    if (!file.view_camera.empty()) view = find_camera(file.cameras, file.view_camera).view();
+    const double begin = radiosity::cpu_seconds();
+    const auto go_on = [begin, shown = progress.callback()](const radiosity::Progress& at) {
+        return shown({"forecast", at.fraction, at.elements, at.residual}) &&
+               radiosity::cpu_seconds() - begin < trial_seconds;
+    };
+    return radiosity::solve_adaptively(enclosure, options, view, go_on);
+}
+
 SolveOptions trial_options(const SolveOptions& options, bool as_it_begins) {
     SolveOptions trial = options;
     trial.error = std::min(0.9, looser * options.error);
@@ -80,7 +96,7 @@ SolveOptions trial_options(const SolveOptions& options, bool as_it_begins) {
     trial.rays = std::max<std::size_t>(1, options.rays / fewer_rays);
     trial.gather_rays = std::max<std::size_t>(1, options.gather_rays / fewer_gather_rays);
     trial.promotions = 0;
-    trial.max_time = trial_seconds;
+    trial.max_time = 0.0;
     if (!as_it_begins) trial.element_size = 0.0;
     return trial;
 }
@@ -96,23 +112,25 @@ double ratio(std::size_t a, std::size_t b) {
     return b > 0 ? static_cast<double>(a) / static_cast<double>(b) : 1.0;
 }
 
-// Leaves at the goal, from those of the trial and the error it left.
-double leaves_at_goal(const SolveOptions& options, const radiosity::Report& trial) {
-    const double leaves = static_cast<double>(trial.patches + trial.zones);
+// The error that the trial left, in units of the goal; 1 where it met that.
+double error_left(const SolveOptions& options, const radiosity::Report& trial) {
     const double left = trial.passes.empty() ? 0.0 : trial.passes.back().estimated_error;
-    if (options.refinement < radiosity::Refinement::adaptive) return leaves;
-    return leaves * std::pow(std::max(1.0, left / options.error), growth);
+    const bool refined = options.refinement >= radiosity::Refinement::adaptive;
+    return refined ? std::max(1.0, left / options.error) : 1.0;
 }
 
 // The trial's picture, of fewer pixels, and what the whole one would take.
 double picture_seconds(const SceneFile& file, const radiosity::Solution& trial, double more_leaves,
-                       ProgressLine& progress) {
+                       double more_error, ProgressLine& progress) {
     auto camera = find_camera(file.cameras, file.view_camera);
     const double pixels = static_cast<double>(camera.width * camera.height);
     camera.width = std::max<std::size_t>(1, camera.width / every);
     camera.height = std::max<std::size_t>(1, camera.height / every);
     const double fewer = static_cast<double>(camera.width * camera.height);
     auto options = file.render;
+    // As many elements are looked at anew as there will be.
+    options.scattering_tolerance *= more_error;
+    options.direct_tolerance *= more_error;
     if (options.error > 0.0 || options.time > 0.0) options.time = 1.0;
     const double begin = radiosity::cpu_seconds();
     make_picture(trial, camera, options, progress);
@@ -133,8 +151,8 @@ double coarse_seconds(const SolveOptions& options, const SampledRows& rows, doub
 
 double row_bytes(const SolveOptions& options) {
     const bool smoothed = options.exchange_settings.smoothing != radiosity::Smoothing::none;
-    return entry_bytes + (has_moments(options) ? moment_bytes * (smoothed ? 3.0 : 1.0) : 0.0) +
-           (smoothed ? smoothing_bytes : 0.0);
+    const double moments = has_moments(options) ? moment_bytes * (smoothed ? 3.0 : 1.0) : 0.0;
+    return row_growth * (entry_bytes + moments) + (smoothed ? smoothing_bytes : 0.0);
 }
 
 // Bands whose extinction is another have rows of their own.
@@ -167,15 +185,14 @@ Forecast foresee(const SceneFile& file, std::shared_ptr<const radiosity::Enclosu
         rows = sample_rows({*enclosure, mesh.forest(), elements}, options);
     }
     const auto tried = trial_options(options, forecast.start_elements <= trial_start);
-    SceneFile trial_file = file;
-    trial_file.solve = tried;
-    const auto trial = solve_scene(trial_file, enclosure, progress);
+    const auto trial = solve_trial(file, enclosure, tried, progress);
     const auto& report = trial.report;
     const double start = static_cast<double>(forecast.start_elements);
-    const double grown = std::max(start, leaves_at_goal(options, report));
+    const double tried_leaves = static_cast<double>(report.patches + report.zones);
+    const double error = error_left(options, report);
+    const double grown = std::max(start, tried_leaves * std::pow(error, growth));
     const double most = static_cast<double>(options.max_elements);
     const double leaves = std::min(grown, most);
-    const double tried_leaves = static_cast<double>(report.patches + report.zones);
     const double more = leaves / std::max(1.0, tried_leaves);
     forecast.elements = static_cast<std::size_t>(leaves);
     forecast.at_least = report.stopped && grown < most;
@@ -190,7 +207,7 @@ Forecast foresee(const SceneFile& file, std::shared_ptr<const radiosity::Enclosu
         seconds_of(report, "indirect light") * more * std::pow(gathers, gather_share) +
         std::max(0.0, solved - passes);
     if (!file.cameras.empty() && !progress.stopped())
-        forecast.picture_cpu_seconds = picture_seconds(file, trial, more, progress);
+        forecast.picture_cpu_seconds = picture_seconds(file, trial, more, error, progress);
 
     const double moved = start * rows.entries * matrices(*enclosure) * row_bytes(options);
     const double already = std::pow(ratio(tried.rays, options.rays), entry_growth);

@@ -25,7 +25,7 @@ struct Forecast {
 //      grow with the error that is left as error^-0.42, the mean of the example scenes; the passes'
 //      times with elements and rays
 //   3. the picture of every fourth row and column: times what is left out
-// Cost: a fifth of the job or so, eight seconds at most beside the picture's part.
+// Cost: a fifth of the job or so, ten CPU-seconds at most beside the picture's part.
 // How good it is: docs/validation.md. Errors: those of the solve.
 Forecast foresee(const SceneFile& file, std::shared_ptr<const radiosity::Enclosure> enclosure,
                  ProgressLine& progress);

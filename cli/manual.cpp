@@ -67,7 +67,7 @@ std::string synopsis(const CommandDescription& command) {
     std::string text = fmt::format("\\fBtyndall {}\\fR", command.name);
     for (const auto& option : command.options)
         if (option.positional) {
-            const auto name = fmt::format("\fI{}\fR", escaped(option.names.front()));
+            const auto name = fmt::format("\\fI{}\\fR", escaped(option.names.front()));
             text += option.required ? " " + name : " [" + name + "]";
         }
     for (const auto& option : command.options)

@@ -82,7 +82,7 @@ std::string unknown_flag(const CLI::App& app, const CLI::App& command, const std
     if (nearest(name, views) || others.empty())
         return fmt::format("unknown flag '{}'. {}", name, suggest(name, flags));
     const std::vector<std::string_view> names(others.begin(), others.end());
-    return fmt::format("unknown flag '{}'. It is one of: tyndall {}.", name, list_of(names, "or"));
+    return fmt::format("unknown flag '{}'. It is one of {}.", name, list_of(names));
 }
 
 // What of the command line must be given and is not.

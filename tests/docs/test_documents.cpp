@@ -54,6 +54,7 @@ std::vector<std::string> commands_in(const std::string& document) {
         if (line.rfind(indented, 0) != 0) continue;
         auto command = line.substr(indented.size());
         if (command.rfind("build/release/bin/", 0) == 0) command.erase(0, 18);
+        if (command.rfind(program + "help", 0) == 0) continue;  // no command that is parsed
         if (command.rfind(program, 0) == 0) commands.push_back(command.substr(program.size()));
     }
     return commands;
@@ -84,7 +85,8 @@ std::vector<std::string> words_of(const std::string& line) {
             end();
             // What stands behind two spaces is said, not typed.
             if (line.compare(k, 2, "  ") == 0 && !words.empty()) return words;
-        } else if (c == '&' || c == '|' || c == '>' || c == '<' || c == '#' || c == ';') {
+        } else if (c == '&' || c == '|' || c == '>' || c == '<' || c == '#' || c == ';' ||
+                   c == '\\') {
             break;
         } else {
             word += c;
