@@ -4,6 +4,7 @@
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME tyndall)
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "${PROJECT_DESCRIPTION}")  # of both
 set(CPACK_PACKAGE_VENDOR "The Tyndall developers")
 set(CPACK_PACKAGE_CONTACT "The Tyndall developers <developers@tyndall.invalid>")
 set(CPACK_PACKAGE_DIRECTORY ${PROJECT_BINARY_DIR}/packages)
@@ -26,27 +27,25 @@ else()
     set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS OFF)
 endif()
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SUGGESTS "paraview, bash-completion")
-set(CPACK_COMPONENT_RUNTIME_DESCRIPTION
-"light in rooms, smoke, fog and furnaces: adaptive-mesh radiosity
- Tyndall computes where light goes: radiosity for surfaces and for the media
- between them (the zonal method), on a mesh that refines itself, without noise.
- It makes pictures, pages to walk through in a browser, solutions for ParaView,
- and figures: irradiance, net flux, exchange areas.
- .
- This package has the command tyndall, its manual, completion for shells, and
- example scenes.")
+set(CPACK_DEBIAN_RUNTIME_DESCRIPTION
+"Tyndall computes where light goes: radiosity for surfaces and for the media
+between them (the zonal method), on a mesh that refines itself, without noise.
+It makes pictures, pages to walk through in a browser, solutions for ParaView,
+and figures: irradiance, net flux, exchange areas.
+.
+This package has the command tyndall, its manual, completion for shells, and
+example scenes.")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libtyndall-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 # Those of TyndallConfig.cmake.in. The programs: the worker is one of them.
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
     "tyndall (= ${PROJECT_VERSION}), libglm-dev, libtbb-dev, libembree-dev, libfmt-dev, libhdf5-dev, libopenexr-dev, libpng-dev, libopenmesh-dev, libgmp-dev, libmpfr-dev")
-set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
-"C++ libraries for adaptive-mesh radiosity with participating media
- Static libraries, headers and the CMake package of Tyndall: meshes (mesh),
- light (radiosity), pictures (render), for C++20 programs.
- .
- In CMake: find_package(Tyndall) and the target Tyndall::render.")
+set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION
+"For C++ programs: static libraries, headers and the CMake package of Tyndall: meshes (mesh),
+light (radiosity), pictures (render).
+.
+In CMake: find_package(Tyndall) and the target Tyndall::render.")
 
 # What Debian's policy asks for beside the files.
 if(TYNDALL_GZIP)
