@@ -42,8 +42,8 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
     "tyndall (= ${PROJECT_VERSION}), libglm-dev, libtbb-dev, libembree-dev, libfmt-dev, libhdf5-dev, libopenexr-dev, libpng-dev, libopenmesh-dev, libgmp-dev, libmpfr-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION
-"For C++ programs: static libraries, headers and the CMake package of Tyndall: meshes (mesh),
-light (radiosity), pictures (render).
+"For C++ programs: static libraries, headers and the CMake package of Tyndall.
+Meshes (mesh), light (radiosity), pictures (render).
 .
 In CMake: find_package(Tyndall) and the target Tyndall::render.")
 

@@ -18,7 +18,7 @@ surface = [ { name = "box", material = "grey", room = { min = [0, 0, 0], max = [
             { name = "light", material = "lamp", polygons = [ [[0.8, 0.8, 2], [0.8, 1.2, 2], [1.2, 1.2, 2], [1.2, 0.8, 2]] ] } ]
 medium = [ { name = "fog", extinction = 0.6, albedo = 0.5 } ]
 camera = [ { name = "main", eye = [1.8, 0.2, 1], target = [0, 2, 1], fov_y = 60, width = 32, height = 24 } ]
-solve = { error = 0.2, rays = 32, gather_rays = 32 }
+solve = { error = 0.2, element_size = 0.5, rays = 32, gather_rays = 32 }
 )";
 
 struct CheckWorkplace : test::Workplace {
@@ -41,6 +41,7 @@ TEST_CASE("check says in words what will be solved") {
                          Contains("32 x 24") && Contains("1, grey"));
     const auto furnace = place.good(
         "check box.toml --no-forecast --set solve.camera= --set solve.start=base --set "
+        "solve.element_size=0 --set "
         "solve.direct_light=rows --set solve.exchange=hemicube --set bands=3");
     CHECK_THAT(furnace, Contains("solution everywhere") && Contains("base tetrahedra") &&
                             Contains("through the exchange areas") && Contains("hemicube") &&

@@ -94,7 +94,7 @@ TEST_CASE("every command has examples, and every example is understood") {
     CHECK(shell.trouble({"run", "room.toml", "--outptu", "out/"}) != "");
 }
 
-TEST_CASE("examples of the room do what they say, one after the other") {
+TEST_CASE("examples of the room do what they say, one after the other", "[long]") {
     const HelpWorkplace place;
     place.make_room();
     place.good("run room.toml -o out/ --quiet");
@@ -199,7 +199,7 @@ TEST_CASE("new writes what checks, never over what is there") {
     place.good("check --no-forecast 'a b/c \"d\".toml'");
 }
 
-TEST_CASE("every template is solved") {
+TEST_CASE("every template is solved", "[long]") {
     const HelpWorkplace place;
     for (const auto& scene : cli::scene_templates()) {
         const std::string name(scene.name);
