@@ -19,7 +19,7 @@ constexpr double trial_seconds = 10.0;  // of CPU time, at most
 constexpr std::size_t trial_start =
     8000;  // elements; where a solve begins with more, a coarser one
 
-// Of the example scenes between four times their goal and their goal (benchmarks/forecast.py):
+// Of example scenes between four times their goal and their goal (docs/validation.md):
 constexpr double growth = 0.42;         // elements ~ error^-growth
 constexpr double gather_share = 0.85;   // of the indirect pass: time ~ rays^gather_share
 constexpr double entry_seconds = 6e-8;  // an entry of the rows costs in all solves together
@@ -30,8 +30,8 @@ constexpr double entry_bytes = 8.0, moment_bytes = 12.0, smoothing_bytes = 37.0;
 constexpr double row_growth = 2.2;      // at the peak: rows are lists that grow by doubling
 constexpr double smoothing_time = 2.5;  // more than the rows themselves take
 
-constexpr std::size_t every = 4;     // row and column of the picture
-constexpr double pixel_share = 0.9;  // its time ~ pixels^pixel_share: edges are looked at closer
+constexpr std::size_t every = 4;      // row and column of the picture
+constexpr double pixel_share = 0.65;  // its time ~ pixels^pixel_share: most of it goes to edges
 constexpr double picture_growth = 1.0 / 3.0;  // ~ elements^…: leaves along a ray
 
 struct SampledRows {

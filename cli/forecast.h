@@ -22,7 +22,7 @@ struct Forecast {
 //   1. rows of some of the elements that the solve begins with are made by the method asked for,
 //      and timed: times all elements, those of the coarse solution, and their entries its memory
 //   2. the solve itself, to four times the error and with a fraction of the rays (walked): elements
-//      grow with the error that is left as error^-0.42, the mean of the example scenes; the passes'
+//      grow with the error that is left as error^-0.42, as in example scenes; the passes'
 //      times with elements and rays
 //   3. the picture of every fourth row and column: times what is left out
 // Cost: a fifth of the job or so, ten CPU-seconds at most beside the picture's part.

@@ -96,7 +96,7 @@ TEST_CASE("a forecast holds what is asked for") {
 
 TEST_CASE("elements are foreseen within a factor of two") {
     const CheckWorkplace place;
-    // The example scenes, where benchmarks/forecast.py measures it, are within 40 %; this is one
+    // Example scenes are within 25 % (docs/validation.md); this is one
     // that the growth was not fitted to.
     const auto foreseen = place.checked("--set solve.error=0.02").at("forecast");
     const auto solved =
