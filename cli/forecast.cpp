@@ -27,7 +27,8 @@ constexpr double entry_growth = 0.8;    // entries of a row ~ rays^entry_growth
 // Bytes that a leaf takes, and an entry: column and value, and a moment where elements are linear.
 constexpr double leaf_bytes = 800.0, leaf_band_bytes = 300.0;
 constexpr double entry_bytes = 8.0, moment_bytes = 12.0, smoothing_bytes = 37.0;
-constexpr double row_growth = 2.2;      // at the peak: rows are lists that grow by doubling
+constexpr double row_growth = 2.2;  // at the peak: rows are lists that grow by doubling
+constexpr double band_time = 0.18;  // that each further matrix of a walk takes, of the first one's
 constexpr double smoothing_time = 2.5;  // more than the rows themselves take
 
 constexpr std::size_t every = 4;      // row and column of the picture
@@ -138,23 +139,6 @@ double picture_seconds(const SceneFile& file, const radiosity::Solution& trial, 
     return spent * std::pow(pixels / fewer, pixel_share) * std::pow(more_leaves, picture_growth);
 }
 
-double coarse_seconds(const SolveOptions& options, const SampledRows& rows, double start,
-                      const radiosity::Report& trial, const SolveOptions& tried) {
-    const double more = start / std::max(1.0, static_cast<double>(trial.solved_elements));
-    const bool walked = options.exchange == "walked";
-    const double left = walked ? 1.0 - ratio(tried.rays, options.rays) : 1.0;
-    const bool smoothed = options.exchange_settings.smoothing != radiosity::Smoothing::none;
-    return seconds_of(trial, "coarse solution") * more +
-           start * rows.seconds * (left + (smoothed ? smoothing_time : 0.0)) +
-           start * rows.entries * entry_seconds;
-}
-
-double row_bytes(const SolveOptions& options) {
-    const bool smoothed = options.exchange_settings.smoothing != radiosity::Smoothing::none;
-    const double moments = has_moments(options) ? moment_bytes * (smoothed ? 3.0 : 1.0) : 0.0;
-    return row_growth * (entry_bytes + moments) + (smoothed ? smoothing_bytes : 0.0);
-}
-
 // Bands whose extinction is another have rows of their own.
 double matrices(const radiosity::Enclosure& e) {
     std::size_t distinct = 0;
@@ -167,6 +151,24 @@ double matrices(const radiosity::Enclosure& e) {
         distinct += is_new ? 1 : 0;
     }
     return static_cast<double>(distinct);
+}
+
+double coarse_seconds(const SolveOptions& options, const SampledRows& rows, double start,
+                      double matrices, const radiosity::Report& trial, const SolveOptions& tried) {
+    const double more = start / std::max(1.0, static_cast<double>(trial.solved_elements));
+    const bool walked = options.exchange == "walked";
+    const double left = walked ? 1.0 - ratio(tried.rays, options.rays) : 1.0;
+    const bool smoothed = options.exchange_settings.smoothing != radiosity::Smoothing::none;
+    return seconds_of(trial, "coarse solution") * more +
+           start * rows.seconds * (1.0 + band_time * (matrices - 1.0)) *
+               (left + (smoothed ? smoothing_time : 0.0)) +
+           start * rows.entries * matrices * entry_seconds;
+}
+
+double row_bytes(const SolveOptions& options) {
+    const bool smoothed = options.exchange_settings.smoothing != radiosity::Smoothing::none;
+    const double moments = has_moments(options) ? moment_bytes * (smoothed ? 3.0 : 1.0) : 0.0;
+    return row_growth * (entry_bytes + moments) + (smoothed ? smoothing_bytes : 0.0);
 }
 
 }  // namespace
@@ -188,6 +190,7 @@ Forecast foresee(const SceneFile& file, std::shared_ptr<const radiosity::Enclosu
     const auto trial = solve_trial(file, enclosure, tried, progress);
     const auto& report = trial.report;
     const double start = static_cast<double>(forecast.start_elements);
+    const double distinct = matrices(*enclosure);
     const double tried_leaves = static_cast<double>(report.patches + report.zones);
     const double error = error_left(options, report);
     const double grown = std::max(start, tried_leaves * std::pow(error, growth));
@@ -202,14 +205,15 @@ Forecast foresee(const SceneFile& file, std::shared_ptr<const radiosity::Enclosu
     const double solved = radiosity::cpu_seconds() - cpu;
     const double gathers = ratio(options.gather_rays, tried.gather_rays);
     forecast.solve_cpu_seconds =
-        coarse_seconds(options, rows, start, report, tried) * (1.0 + double(options.promotions)) +
+        coarse_seconds(options, rows, start, distinct, report, tried) *
+            (1.0 + double(options.promotions)) +
         seconds_of(report, "direct light") * more +
         seconds_of(report, "indirect light") * more * std::pow(gathers, gather_share) +
         std::max(0.0, solved - passes);
     if (!file.cameras.empty() && !progress.stopped())
         forecast.picture_cpu_seconds = picture_seconds(file, trial, more, error, progress);
 
-    const double moved = start * rows.entries * matrices(*enclosure) * row_bytes(options);
+    const double moved = start * rows.entries * distinct * row_bytes(options);
     const double already = std::pow(ratio(tried.rays, options.rays), entry_growth);
     const double leaf = leaf_bytes + leaf_band_bytes * static_cast<double>(enclosure->bands);
     forecast.memory = static_cast<double>(radiosity::peak_memory_bytes()) +
