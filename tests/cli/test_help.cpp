@@ -119,8 +119,10 @@ TEST_CASE("examples of the room do what they say, one after the other", "[long]"
         if (line.find("width") != line.npos) continue;
         CAPTURE(line);
         const auto outcome = place.run(arguments);
-        CHECK(outcome.err.find("tyndall: ") == std::string::npos);
-        CHECK(outcome.code == 0);
+        // "… || echo worse": to fail is what it is for.
+        const bool judges = line.find("||") != line.npos;
+        if (!judges) CHECK(outcome.err.find("tyndall: ") == std::string::npos);
+        CHECK(outcome.code <= (judges ? 1 : 0));
         ++ran;
     }
     CHECK(ran >= 20);
