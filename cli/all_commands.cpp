@@ -3,6 +3,7 @@
 namespace tyndall::cli {
 
 void add_all_commands(Shell& shell) {
+    add_new_command(shell);
     add_run_command(shell);
     add_check_command(shell);
     add_solve_command(shell);
@@ -14,6 +15,8 @@ void add_all_commands(Shell& shell) {
     add_animate_command(shell);
     add_study_command(shell);
     add_compare_command(shell);
+    add_completion_command(shell);
+    add_manual_command(shell);
 }
 
 }  // namespace tyndall::cli

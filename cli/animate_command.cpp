@@ -108,8 +108,10 @@ void add_animate_command(Shell& shell) {
                           [options](const CommonFlags& flags) { return animate(*options, flags); });
     add_seed_flag(command, shell.flags());
     add_set_flag(command, shell.flags());
-    command.option("SCENE", options->scene, "Scene file with an [animation]").required();
-    command.option("-o,--output", options->out, "Folder for the results").required();
+    command.option("SCENE", options->scene, "Scene file with an [animation]")
+        .required()
+        .file({"toml"});
+    command.option("-o,--output", options->out, "Folder for the results").required().folder();
     command.option("--frames", options->frames, "A part: the first and the last frame, as in 0:23");
     command.flag(
         "--resume", options->resume,

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "cli/common_flags.h"
+#include "cli/program_description.h"
 
 namespace tyndall::cli {
 
@@ -24,7 +25,8 @@ class Shell {
 
     // Adds a subcommand with --threads, --quiet and --json. The caller adds its other options to
     // what is returned, with variables that the action keeps alive (a shared_ptr). `examples`:
-    // whole lines for the end of its help.
+    // whole lines for the end of its help, "  tyndall run room.toml -o out/    comment": each is
+    // run or parsed by tests/cli/test_help.cpp.
     Command add_command(const std::string& name, const std::string& purpose,
                         const std::string& examples, Action action);
 
@@ -35,12 +37,18 @@ class Shell {
     // A reader of stdout that goes away (`| head`) is no failure; a full disk under stdout is one.
     int run(int argc, const char* const* argv);
 
+    // All that the command line can be, for help, manual and completion.
+    ProgramDescription description() const;
+    // Why these words behind `tyndall` are wrong usage; "" if they are not. Nothing is run.
+    std::string trouble(const std::vector<std::string>& words);
+
   private:
     int parse_and_run(int argc, const char* const* argv);
     int help(const std::string& name) const;  // `tyndall help [COMMAND]`
     int usage_error(const std::string& message) const;
 
     std::unique_ptr<CLI::App> app_;
+    Completions completions_;
     CommonFlags flags_;
     Action chosen_;
 };
@@ -83,5 +91,14 @@ void add_animate_command(Shell& shell);
 
 // study_command.cpp
 void add_study_command(Shell& shell);
+
+// new_command.cpp
+void add_new_command(Shell& shell);
+
+// completion_command.cpp
+void add_completion_command(Shell& shell);
+
+// manual_command.cpp
+void add_manual_command(Shell& shell);
 
 }  // namespace tyndall::cli

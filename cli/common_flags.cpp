@@ -54,14 +54,15 @@ void add_set_flag(Command command, CommonFlags& flags) {
         for (const auto& text : texts) flags.settings.push_back(parse_setting(text));
         return true;
     };
-    command.app()
-        .add_option_function<std::vector<std::string>>(
-            "--set", keep,
-            "Override a key of the file, repeatable: --set solve.error=0.003 "
-            "--set material.plaster.reflectance=0.3")
-        ->type_name("KEY=VALUE")
-        ->allow_extra_args(false)  // else it would swallow what follows
-        ->group("Common flags");
+    const auto* option = command.app()
+                             .add_option_function<std::vector<std::string>>(
+                                 "--set", keep,
+                                 "Override a key of the file, repeatable: --set solve.error=0.003 "
+                                 "--set material.plaster.reflectance=0.3")
+                             ->type_name("KEY=VALUE")
+                             ->allow_extra_args(false)  // else it would swallow what follows
+                             ->group("Common flags");
+    command.completions()[option].settings = true;
 }
 
 }  // namespace tyndall::cli

@@ -270,14 +270,21 @@ void add_compare_command(Shell& shell) {
     command
         .option("A", options->picture,
                 "Picture (.exr, .pfm), solution (.vtkhdf), or folder of a run")
-        .required();
-    command.option("B", options->reference, "Reference, likewise").required();
+        .required()
+        .file({"exr", "pfm", "vtkhdf"})
+        .folder();
+    command.option("B", options->reference, "Reference, likewise")
+        .required()
+        .file({"exr", "pfm", "vtkhdf"})
+        .folder();
     command.option("--layer", options->layer,
                    "Layer to compare; direct_single: emission + surfaces_direct + "
                    "single_scattering");
     command.option("--region", options->region, "Compare these pixels only: left,top,width,height");
-    command.option("--difference", options->difference,
-                   "Write the difference as .png: red is too bright, blue too dark");
+    command
+        .option("--difference", options->difference,
+                "Write the difference as .png: red is too bright, blue too dark")
+        .file({"png"});
     command
         .option("--difference-range", options->difference_range,
                 "Difference in full colour, in the layer's unit; else the 99.5th percentile")

@@ -10,6 +10,7 @@
 #include "cli/suggestion.h"
 #include "mesh/file_bytes.h"
 #include "mesh/input_error.h"
+#include "radiosity/exchange_methods.h"
 #include "radiosity/exchange_table.h"
 #include "radiosity/report_json.h"
 #include "radiosity/smoothing.h"
@@ -149,14 +150,18 @@ void add_exchange_command(Shell& shell) {
     auto command = shell.add_command(
         "exchange", "Exchange areas between sides, media and outside",
         R"(  tyndall exchange room.toml
-  tyndall exchange room.toml --method contour_integration --from lamp --to room.floor
+  tyndall exchange room.toml --from ceiling_lamp --to room.floor --to haze
   tyndall exchange room.toml --method hemicube --set solve.resolution=256 -o areas.csv)",
         [options](const CommonFlags& flags) { return exchange(*options, flags); });
     add_seed_flag(command, shell.flags());
     add_set_flag(command, shell.flags());
-    command.option("SCENE", options->scene, "Scene file").required();
-    command.option("--method", options->method,
-                   "How exchange areas are computed; solve.exchange if not given");
+    command.option("SCENE", options->scene, "Scene file").required().file({"toml"});
+    std::vector<std::string> methods;
+    for (const auto& method : radiosity::exchange_methods()) methods.emplace_back(method.name);
+    command
+        .option("--method", options->method,
+                "How exchange areas are computed; solve.exchange if not given")
+        .word_of(methods);
     command.option("--from", options->from,
                    "A side (floor+), a surface (floor: its sides), a medium, or outside; "
                    "repeatable; all if not given");
@@ -170,7 +175,7 @@ void add_exchange_command(Shell& shell) {
                 "For the methods that walk, from each facet and tetrahedron of the base mesh in "
                 "the mean (2^20 at most from a side or medium); 4096 if not given")
         .between(std::size_t(1), std::size_t(1) << 24);
-    command.option("-o,--output", options->out, "CSV to write; else standard output");
+    command.option("-o,--output", options->out, "CSV to write; else standard output").file({"csv"});
 }
 
 }  // namespace tyndall::cli

@@ -3,10 +3,14 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "cli/completion.h"
+#include "cli/suggestion.h"
+#include "cli/wrong_file.h"
 #include "mesh/file_bytes.h"
 #include "mesh/input_error.h"
 #include "radiosity/adaptive.h"
@@ -29,7 +33,28 @@ std::vector<std::string> scene_overrides(const CommonFlags& flags) {
     return overrides;
 }
 
+// A key without its table, as in --set error=0.01: which one is meant.
+static void check_setting_keys(const CommonFlags& flags) {
+    if (flags.settings.empty()) return;
+    const auto keys = settable_keys();
+    std::vector<std::string> last;  // without their tables
+    for (const auto& key : keys) last.push_back(key.substr(key.find('.') + 1));
+    const std::vector<std::string_view> views(last.begin(), last.end());
+    for (const auto& setting : flags.settings) {
+        if (setting.key.find('.') != setting.key.npos) continue;
+        if (scene_has_key(setting.key)) continue;
+        if (const auto near = nearest(setting.key, views)) {
+            const auto which = std::find(last.begin(), last.end(), *near) - last.begin();
+            throw InputError(fmt::format(
+                "--set {}={}: the scene has no key \"{}\". Did you mean \"{}\"?", setting.key,
+                setting.value, setting.key, keys[static_cast<std::size_t>(which)]));
+        }
+    }
+}
+
 SceneFile load_scene(const std::string& path, const CommonFlags& flags) {
+    require_scene(path);
+    check_setting_keys(flags);
     return read_scene_file(path, scene_overrides(flags));
 }
 
@@ -98,7 +123,10 @@ void prepare_folder(const fs::path& folder) {
 fs::path solution_path(const std::string& given) {
     const fs::path path(given);
     std::error_code ignored;
-    if (!fs::is_directory(path, ignored)) return path;
+    if (!fs::is_directory(path, ignored)) {
+        require_solution(path);
+        return path;
+    }
     const auto file = path / "solution.vtkhdf";
     if (!fs::exists(file, ignored))
         throw InputError(

@@ -127,13 +127,17 @@ void add_probe_command(Shell& shell) {
   tyndall probe out/ --points walls.csv -o irradiance.csv --rays 65536)",
                           [options](const CommonFlags& flags) { return probe(*options, flags); });
     add_seed_flag(command, shell.flags());
-    command.option("OUT", options->solution, "Folder of a run, or a solution file").required();
+    command.option("OUT", options->solution, "Folder of a run, or a solution file")
+        .required()
+        .file({"vtkhdf"})
+        .folder();
     command
         .option("--points", options->points,
                 "CSV with x,y,z (J and G) or x,y,z,nx,ny,nz (irradiance); T where there are "
                 "temperatures")
-        .required();
-    command.option("-o,--output", options->out, "CSV to write; else standard output");
+        .required()
+        .file({"csv"});
+    command.option("-o,--output", options->out, "CSV to write; else standard output").file({"csv"});
     command.option("--rays", options->rays, "Gathered along at each point; 4096 if not given")
         .between(std::size_t(1), std::size_t(1) << 24);
 }

@@ -29,7 +29,7 @@ struct PictureOptions {
 
 constexpr const char* examples =
     R"(  tyndall render out/ -o picture.png --exposure 1
-  tyndall render out/ --camera side --layer direct_single -o direct.pfm
+  tyndall render out/ --camera main --layer direct_single -o direct.pfm
   tyndall render out/ --method path_traced --error 0.02 -o oracle.exr
   tyndall render out/ --crop 100,40,64,48 --samples 256 -o detail.png
   tyndall render out/ --mesh -o mesh.png
@@ -210,10 +210,16 @@ void add_render_command(Shell& shell) {
         [options](const CommonFlags& flags) { return make_and_write(*options, flags); });
     add_seed_flag(command, shell.flags());
     add_set_flag(command, shell.flags());
-    command.option("OUT", options->solution, "Folder of a run, or a solution file").required();
-    command.option("-o,--output", options->out, "Picture: .exr, .pfm or .png").required();
+    command.option("OUT", options->solution, "Folder of a run, or a solution file")
+        .required()
+        .file({"vtkhdf"})
+        .folder();
+    command.option("-o,--output", options->out, "Picture: .exr, .pfm or .png")
+        .required()
+        .file({"exr", "pfm", "png"});
     command.option("--camera", options->camera, "Camera of the scene; else the one solved for");
-    command.option("--method", options->method, "Render method; else the scene's");
+    command.option("--method", options->method, "Render method; else the scene's")
+        .name_of(render::renderer_names());
     command.option("--layer", options->layer,
                    "Write this layer alone; direct_single: emission + surfaces_direct + "
                    "single_scattering");
@@ -227,15 +233,19 @@ void add_render_command(Shell& shell) {
     command.option("--time", options->time, "Wall time to spend [s] (likewise)").positive();
     command.option("--crop", options->crop, "These pixels of the picture: left,top,width,height");
     command.flag("--mesh", options->mesh, "Draw the edges of the elements that are seen");
-    command.option(
-        "--field", options->field,
-        fmt::format("What elements hold, in colours: {}", fmt::join(render::field_names(), ", ")));
+    command
+        .option("--field", options->field,
+                fmt::format("What elements hold, in colours: {}",
+                            fmt::join(render::field_names(), ", ")))
+        .name_of(render::field_names());
     command.option("--slice", options->slice,
                    "Of the zones on a plane: x,y,z of a point and of the normal, or middle");
     command.option("--range", options->range, "Ends of the colours: low,high; else by the picture");
-    command.option("--tone", options->tone,
-                   fmt::format("Curve of a PNG: {}; else the scene's",
-                               fmt::join(render::tone_curve_names(), ", ")));
+    command
+        .option("--tone", options->tone,
+                fmt::format("Curve of a PNG: {}; else the scene's",
+                            fmt::join(render::tone_curve_names(), ", ")))
+        .name_of(render::tone_curve_names());
     command.option("--exposure", options->exposure, "Stops added to a PNG's exposure");
     command.option("--white", options->white, "Radiance shown as white in a PNG [W/m2/sr]")
         .positive();

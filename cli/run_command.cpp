@@ -101,13 +101,14 @@ void add(Shell& shell, const char* name, const char* purpose, const char* exampl
         [options, picture](const CommonFlags& flags) { return run(*options, flags, picture); });
     add_seed_flag(command, shell.flags());
     add_set_flag(command, shell.flags());
-    command.option("SCENE", options->scene, "Scene file").required();
-    command.option("-o,--output", options->out, "Folder for the results").required();
+    command.option("SCENE", options->scene, "Scene file").required().file({"toml"});
+    command.option("-o,--output", options->out, "Folder for the results").required().folder();
     const auto resume = command.flag("--resume", options->passes.resume,
                                      "Go on from the last finished pass in the folder");
     command
         .option("--replay", options->passes.replay,
                 "Take the mesh of this pass (OUT/passes/NN.vtkhdf) or solution as it is")
+        .file({"vtkhdf"})
         .excludes(resume);
     if (picture == Picture::not_wanted) return;
     command.flag("--no-view", options->no_view, "Write no view.html");
@@ -126,15 +127,17 @@ void add(Shell& shell, const char* name, const char* purpose, const char* exampl
 
 void add_run_command(Shell& shell) {
     add(shell, "run", "Mesh, solve adaptively, render, report: the main job",
-        R"(  tyndall run examples/scenes/window_shafts.toml -o out/
-  tyndall run room.toml -o fine/ --set solve.error=0.003 --set camera.main.width=1280)",
+        R"(  tyndall run room.toml -o out/
+  tyndall run room.toml -o fine/ --set solve.error=0.01 --set camera.main.width=1280
+  tyndall run room.toml -o out/ --preview      look at out/preview.png meanwhile
+  tyndall run room.toml -o out/ --resume       go on where a run was stopped)",
         Picture::wanted);
 }
 
 void add_solve_command(Shell& shell) {
     add(shell, "solve", "The same without a picture",
         R"(  tyndall solve room.toml -o out/
-  tyndall solve room.toml -o out/ --set solve.camera= --json)",
+  tyndall solve room.toml -o out/ --set solve.camera= --json       good everywhere)",
         Picture::not_wanted);
 }
 

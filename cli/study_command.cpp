@@ -11,6 +11,7 @@
 #include "cli/study_summary.h"
 #include "cli/study_table.h"
 #include "cli/toml_reader.h"
+#include "cli/wrong_file.h"
 #include "mesh/file_bytes.h"
 #include "mesh/input_error.h"
 
@@ -26,12 +27,17 @@ struct StudyOptions {
 };
 
 // A study on its way through its runs.
+Study study_of(const std::string& path) {
+    require_study(path);
+    return read_study_file(path);
+}
+
 class Session {
   public:
     Session(const StudyOptions& options, const CommonFlags& flags)
         : options_(options),
           flags_(flags),
-          study_(read_study_file(options.study)),
+          study_(study_of(options.study)),
           runs_(expand(study_, flags)),
           folder_(options.out),
           progress_(flags) {}
@@ -253,12 +259,12 @@ void add_study_command(Shell& shell) {
     auto command = shell.add_command(
         "study", "Discretization studies: many runs of a scene against a reference",
         R"(  tyndall study examples/studies/shafts_soft.toml -o study/
-  tyndall study STUDY.toml -o study/ --json > rows.json       the same again only measures)",
+  tyndall study study.toml -o study/ --json > rows.json       the same again only measures)",
         [options](const CommonFlags& flags) { return Session(*options, flags).run(); });
     add_seed_flag(command, shell.flags());
     add_set_flag(command, shell.flags());
-    command.option("STUDY", options->study, "Study file").required();
-    command.option("-o,--output", options->out, "Folder for the results").required();
+    command.option("STUDY", options->study, "Study file").required().file({"toml"});
+    command.option("-o,--output", options->out, "Folder for the results").required().folder();
     command.flag("--again", options->again, "Make all runs anew, done ones and references too");
 }
 

@@ -72,11 +72,15 @@ void add_view_command(Shell& shell) {
     auto command = shell.add_command(
         "view", "A page to walk through the solution in a browser",
         R"(  tyndall view out/
-  tyndall view out/ -o talk.html --set camera.main.fov_y=70)",
+  tyndall view out/ -o talk.html --set camera.main.fov_x=60)",
         [options](const CommonFlags& flags) { return make_view(*options, flags); });
     add_set_flag(command, shell.flags());
-    command.option("OUT", options->solution, "Folder of a run, or a solution file").required();
-    command.option("-o,--output", options->out, "Page; else view.html beside the solution");
+    command.option("OUT", options->solution, "Folder of a run, or a solution file")
+        .required()
+        .file({"vtkhdf"})
+        .folder();
+    command.option("-o,--output", options->out, "Page; else view.html beside the solution")
+        .file({"html"});
 }
 
 }  // namespace tyndall::cli

@@ -1,5 +1,6 @@
-# cmake -DOUTPUT=FILE -DTEXTS=FILE;FILE… -P embed_texts.cmake: texts as a C++ function that gives
-# them by name (view/page_sources.h). A program carries its page along; no generated file is kept.
+# cmake -DOUTPUT=FILE -DHEADER=INCLUDE -DFUNCTION=NAMESPACE::NAME -DTEXTS=FILE;FILE… -P embed_texts.cmake:
+# texts as a C++ function, declared in HEADER, that gives them by name. A program carries its page and its
+# templates along; no generated file is kept.
 set(cases "")
 foreach(text IN LISTS TEXTS)
     get_filename_component(name ${text} NAME)
@@ -7,6 +8,8 @@ foreach(text IN LISTS TEXTS)
     file(READ ${text} content)
     string(APPEND cases "    if (name == \"${name}\")\n        return R\"~~~(${content})~~~\";\n")
 endforeach()
-file(WRITE ${OUTPUT} "// Made from view/page by cmake/embed_texts.cmake.\n#include \"view/page_sources.h\"\n
-namespace tyndall::view {\n\nstd::string_view page_source(std::string_view name) {\n${cases}    return {};\n}\n
-}  // namespace tyndall::view\n")
+string(REGEX REPLACE "::[^:]*$" "" namespace ${FUNCTION})
+string(REGEX REPLACE "^.*::" "" function ${FUNCTION})
+file(WRITE ${OUTPUT} "// Made by cmake/embed_texts.cmake.\n#include \"${HEADER}\"\n
+namespace ${namespace} {\n\nstd::string_view ${function}(std::string_view name) {\n${cases}    return {};\n}\n
+}  // namespace ${namespace}\n")

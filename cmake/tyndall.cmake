@@ -60,3 +60,17 @@ function(tyndall_library folder)
     target_compile_definitions(tyndall_${folder} PRIVATE TYNDALL_VERSION="${PROJECT_VERSION}")
     set_target_properties(tyndall_${folder} PROPERTIES EXPORT_NAME ${folder})
 endfunction()
+
+# tyndall_embed_texts(TARGET HEADER FUNCTION FILES...): the target has FUNCTION of HEADER, which gives
+# the texts of the files by their names.
+function(tyndall_embed_texts target header function)
+    string(REGEX REPLACE "^.*::" "" name ${function})
+    set(output ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
+    add_custom_command(
+        OUTPUT ${output}
+        COMMAND ${CMAKE_COMMAND} -DOUTPUT=${output} -DHEADER=${header} -DFUNCTION=${function} "-DTEXTS=${ARGN}"
+                -P ${PROJECT_SOURCE_DIR}/cmake/embed_texts.cmake
+        DEPENDS ${ARGN} ${PROJECT_SOURCE_DIR}/cmake/embed_texts.cmake
+        COMMENT "Embedding texts: ${name}" VERBATIM)
+    target_sources(${target} PRIVATE ${output})
+endfunction()

@@ -273,15 +273,8 @@ class Loop {
 };
 
 void Loop::make_initial_mesh() {
-    // Fine enough for smooth indirect light, coarse enough that rows cost about a second.
-    ElementMesh::InitialSize size{0.0, 4000, 1500};
     if (kept_.moved) return mesh_.replay(kept_.moved->coarse_forest);
-    if (options_.start == Start::single_zone) return;
-    if (options_.element_size > 0.0)
-        size = {options_.element_size, options_.max_elements, options_.max_elements};
-    else if (options_.start != Start::uniform || options_.refinement == Refinement::none)
-        return;
-    mesh_.refine_to(size);
+    radiosity::make_initial_mesh(mesh_, options_);
 }
 
 std::function<IndicatedErrors()> Loop::other_indicators(const CoarseSolution& coarse) {

@@ -1,4 +1,5 @@
 // The documents say what the program does: their scenes can be read, their reference is complete.
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -8,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/commands.h"
 #include "cli/scene_file.h"
 #include "cli/study_file.h"
 #include "support/catch.h"
@@ -41,6 +43,58 @@ std::vector<std::string> scenes_in(const std::string& document) {
         if (block.rfind("format", 0) == 0) scenes.push_back(block);
     }
     return scenes;
+}
+
+// Lines of code blocks that are commands, without what a shell makes of their ends.
+std::vector<std::string> commands_in(const std::string& document) {
+    std::istringstream in(document);
+    std::vector<std::string> commands;
+    for (std::string line; std::getline(in, line);) {
+        const std::string indented = "    ", program = "tyndall ";
+        if (line.rfind(indented, 0) != 0) continue;
+        auto command = line.substr(indented.size());
+        if (command.rfind("build/release/bin/", 0) == 0) command.erase(0, 18);
+        if (command.rfind(program + "help", 0) == 0) continue;  // no command that is parsed
+        if (command.rfind(program, 0) == 0) commands.push_back(command.substr(program.size()));
+    }
+    return commands;
+}
+
+// As a shell parts them: quotes, a comment behind, another command behind.
+std::vector<std::string> words_of(const std::string& line) {
+    std::vector<std::string> words;
+    std::string word;
+    char quote = 0;
+    bool any = false;
+    const auto end = [&] {
+        if (any) words.push_back(word);
+        word.clear();
+        any = false;
+    };
+    for (std::size_t k = 0; k < line.size(); ++k) {
+        const char c = line[k];
+        if (quote != 0) {
+            if (c == quote)
+                quote = 0;
+            else
+                word += c;
+        } else if (c == '\'' || c == '"') {
+            quote = c;
+            any = true;
+        } else if (c == ' ') {
+            end();
+            // What stands behind two spaces is said, not typed.
+            if (line.compare(k, 2, "  ") == 0 && !words.empty()) return words;
+        } else if (c == '&' || c == '|' || c == '>' || c == '<' || c == '#' || c == ';' ||
+                   c == '\\') {
+            break;
+        } else {
+            word += c;
+            any = true;
+        }
+    }
+    end();
+    return words;
 }
 
 }  // namespace
@@ -100,4 +154,36 @@ TEST_CASE("every equation of the theory is listed with its files") {
                                    std::regex(R"(\| \((\d+)(?:(?: – |, )(\d+))?\) \|)"));
     CHECK(numbered.size() > 60);
     CHECK(numbered == listed);
+}
+
+TEST_CASE("the version is one: CMake's, the changelog's newest, the citation's, the program's") {
+    const auto behind = [](const std::string& text, const std::string& begin) {
+        const auto at = text.find(begin);
+        REQUIRE(at != std::string::npos);
+        const auto from = at + begin.size();
+        return text.substr(from, text.find_first_not_of("0123456789.", from) - from);
+    };
+    const std::string version =
+        behind(text_of(root / "CMakeLists.txt"), "project(Tyndall VERSION ");
+    CHECK(std::count(version.begin(), version.end(), '.') == 2);
+    CHECK(behind(text_of(root / "CHANGELOG.md"), "\n## ") == version);
+    CHECK(behind(text_of(root / "CITATION.cff"), "\nversion: ") == version);
+    tyndall::cli::Shell shell;
+    CHECK(shell.description().version == version);
+}
+
+TEST_CASE("commands in the documents are understood") {
+    std::size_t count = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(root / "docs")) {
+        if (entry.path().extension() != ".md") continue;
+        const auto lines = commands_in(text_of(entry.path()));
+        for (const auto& line : lines) {
+            INFO(entry.path() << ": " << line);
+            tyndall::cli::Shell shell;
+            tyndall::cli::add_all_commands(shell);
+            CHECK(shell.trouble(words_of(line)) == "");
+            ++count;
+        }
+    }
+    CHECK(count > 50);
 }
