@@ -4,6 +4,7 @@
 #include "cli/job.h"
 #include "cli/passes.h"
 #include "cli/preview.h"
+#include "cli/report_file.h"
 #include "cli/run_report.h"
 #include "cli/view_file.h"
 #include "mesh/file_bytes.h"
@@ -20,7 +21,7 @@ struct RunOptions {
     std::string scene, out;
     PassChoice passes{};
     PreviewChoice preview{};
-    bool no_view = false;
+    bool no_view = false, no_report = false;
 };
 
 enum class Picture { wanted, not_wanted };
@@ -50,8 +51,49 @@ void warn_of_old(const fs::path& folder, const std::string& name, radiosity::Rep
         report.warnings.push_back(name + " in '" + folder.string() + "' is of an earlier run.");
 }
 
+// What was asked for, without what does not change the results.
+std::string command_of(const RunOptions& options, const CommonFlags& flags, Picture picture) {
+    std::vector<std::string> words{"tyndall", picture == Picture::wanted ? "run" : "solve",
+                                   options.scene, "-o", options.out};
+    if (flags.seed) words.insert(words.end(), {"--seed", std::to_string(*flags.seed)});
+    for (const auto& setting : override_texts(flags)) words.insert(words.end(), {"--set", setting});
+    if (options.passes.resume) words.push_back("--resume");
+    if (!options.passes.replay.empty())
+        words.insert(words.end(), {"--replay", options.passes.replay});
+    return command_line(words);
+}
+
+// view.html and report.html, as far as they are wanted.
+void write_pages(const fs::path& folder, const RunOptions& options, const SceneFile& file,
+                 const radiosity::Solution& solution, const std::string& report, bool pictured,
+                 bool viewed, RunFacts& facts) {
+    const ViewSettings settings{file.scene.title, file.cameras, file.view_camera, file.render,
+                                file.tone_map};
+    const auto untitled = fs::path(options.scene).stem().string();
+    if (viewed) {
+        write_view(folder / "view.html", solution, settings,
+                   {report, untitled, file.solve.error, options.no_report ? "" : "report.html"});
+        facts.written.push_back(folder / "view.html");
+    }
+    if (options.no_report) return;
+    write_report(folder / "report.html", solution, settings,
+                 {report,
+                  file.effective_toml,
+                  pictured ? folder / "image.png" : fs::path(),
+                  viewed ? "view.html" : "",
+                  {},
+                  untitled});
+    facts.written.push_back(folder / "report.html");
+}
+
 int run(const RunOptions& options, const CommonFlags& flags, Picture picture) {
-    RunFacts facts{options.scene, 1, threads_in_use(), radiosity::wall_seconds(), {}, {}};
+    RunFacts facts{options.scene,
+                   1,
+                   threads_in_use(),
+                   radiosity::wall_seconds(),
+                   {},
+                   {},
+                   command_of(options, flags, picture)};
     const SceneFile file = load_scene(options.scene, flags);
     facts.seed = file.solve.seed;
     const fs::path folder(options.out);
@@ -75,16 +117,11 @@ int run(const RunOptions& options, const CommonFlags& flags, Picture picture) {
     const bool viewed = picture == Picture::wanted && !options.no_view && !progress.stopped();
     if (!pictured) warn_of_old(folder, "image.exr", solution.report);
     if (!viewed) warn_of_old(folder, "view.html", solution.report);
+    if (options.no_report) warn_of_old(folder, "report.html", solution.report);
     facts.written.push_back(folder / "report.json");
     const auto report = report_text(solution.report, facts);
     mesh::write_file(folder / "report.json", report);
-    if (viewed) {
-        const ViewSettings settings{file.scene.title, file.cameras, file.view_camera, file.render,
-                                    file.tone_map};
-        write_view(folder / "view.html", solution, settings, report,
-                   fs::path(options.scene).stem().string());
-        facts.written.push_back(folder / "view.html");
-    }
+    write_pages(folder, options, file, solution, report, pictured, viewed, facts);
     progress.clear();
     if (flags.json)
         write_output(report);
@@ -110,6 +147,7 @@ void add(Shell& shell, const char* name, const char* purpose, const char* exampl
                 "Take the mesh of this pass (OUT/passes/NN.vtkhdf) or solution as it is")
         .file({"vtkhdf"})
         .excludes(resume);
+    command.flag("--no-report", options->no_report, "Write no report.html");
     if (picture == Picture::not_wanted) return;
     command.flag("--no-view", options->no_view, "Write no view.html");
     command.flag("--preview", options->preview.wanted,

@@ -12,6 +12,23 @@ namespace tyndall::cli {
 
 using Json = nlohmann::ordered_json;
 
+std::string command_line(const std::vector<std::string>& words) {
+    constexpr const char* plain =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_./=:,+@%-";
+    std::string line;
+    for (const auto& word : words) {
+        if (!line.empty()) line += ' ';
+        if (!word.empty() && word.find_first_not_of(plain) == std::string::npos) {
+            line += word;
+            continue;
+        }
+        line += '\'';
+        for (const char c : word) line += c == '\'' ? std::string("'\\''") : std::string(1, c);
+        line += '\'';
+    }
+    return line;
+}
+
 std::size_t threads_in_use() {
     return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
 }
@@ -22,6 +39,7 @@ std::string report_text(const radiosity::Report& report, const RunFacts& facts) 
               {"version", TYNDALL_VERSION},
               {"seed", facts.seed},
               {"threads", facts.threads}};
+    if (!facts.command.empty()) json["command"] = facts.command;
     if (!facts.resumed_from.empty()) json["resumed_from"] = facts.resumed_from.string();
     for (const char* key : {"patches", "zones", "solved_elements", "passes"})
         json[key] = solved.at(key);

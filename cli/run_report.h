@@ -18,7 +18,11 @@ struct RunFacts {
     double began = 0.0;                  // radiosity::wall_seconds() then [s]
     std::filesystem::path resumed_from;  // the pass that was gone on with; empty: none
     std::vector<std::filesystem::path> written;
+    std::string command{};  // that makes the same again
 };
+
+// A command line as a shell takes it, words quoted where they must be.
+std::string command_line(const std::vector<std::string>& words);
 
 // The number of threads that are used now.
 std::size_t threads_in_use();

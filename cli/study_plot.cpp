@@ -6,10 +6,19 @@
 #include <array>
 #include <cmath>
 #include <iterator>
-#include <limits>
+
+#include "view/markup.h"
+#include "view/plot_axis.h"
 
 namespace tyndall::cli {
 namespace {
+
+using view::escaped;
+using view::linear_axis;
+using view::log_axis;
+using view::PlotAxis;
+using view::tick_text;
+using view::ticks_of;
 
 constexpr double left = 78, top = 46, plot_width = 520, plot_height = 380, bottom = 62;
 constexpr double legend_gap = 20, letter = 6.6, line_height = 20;
@@ -17,72 +26,6 @@ constexpr double legend_gap = 20, letter = 6.6, line_height = 20;
 // Told apart with every kind of colour vision. Source: Okabe & Ito (2008), Color universal design.
 constexpr std::array<const char*, 8> colours{"#0072B2", "#D55E00", "#009E73", "#CC79A7",
                                              "#E69F00", "#56B4E9", "#000000", "#8B6F00"};
-
-std::string escaped(const std::string& text) {
-    std::string result;
-    for (const char c : text) {
-        if (c == '<')
-            result += "&lt;";
-        else if (c == '>')
-            result += "&gt;";
-        else if (c == '&')
-            result += "&amp;";
-        else if (c == '"')
-            result += "&quot;";
-        else if (static_cast<unsigned char>(c) >= 0x20)
-            result += c;
-    }
-    return result;
-}
-
-// A range of numbers on an axis of the picture, from `begin` to `end` [pixel]: positive ones, or
-// linear from 0.
-struct PlotAxis {
-    double low, high, begin, end;
-    bool linear = false;
-
-    double at(double value) const {
-        return begin + (end - begin) *
-                           (linear ? value / high : std::log(value / low) / std::log(high / low));
-    }
-    bool holds(double value) const {
-        return value >= low * (1 - 1e-9) && value <= high * (1 + 1e-9);
-    }
-};
-
-// The nearest of 1, 2, 5 times a power of ten that is not above the value.
-double round_down(double value) {
-    const double decade = std::pow(10.0, std::floor(std::log10(value) + 1e-9));
-    for (const double m : {5.0, 2.0})
-        if (m * decade <= value * (1 + 1e-9)) return m * decade;
-    return decade;
-}
-
-double round_up(double value) {
-    const double below = round_down(value);
-    if (below >= value * (1 - 1e-9)) return below;
-    const double lead = below / std::pow(10.0, std::floor(std::log10(below) + 1e-9));
-    return lead < 1.5 || lead > 4.5 ? 2.0 * below : 2.5 * below;
-}
-
-// From one round number to another, with room for the marks.
-PlotAxis axis_for(std::vector<double> values, double begin, double end) {
-    if (values.empty()) values = {1.0, 100.0};
-    constexpr double room = 1.05;
-    const double low = *std::min_element(values.begin(), values.end()) / room;
-    const double high = *std::max_element(values.begin(), values.end()) * room;
-    return {round_down(low), round_up(high), begin, end};
-}
-
-PlotAxis linear_axis_for(const std::vector<double>& values, double begin, double end) {
-    double high = 0.0;
-    for (const double value : values) high = std::max(high, value);
-    return {0.0, high > 0.0 ? 1.05 * high : 1.0, begin, end, true};
-}
-
-std::vector<double> ticks_of(const PlotAxis& axis) {
-    return axis.linear ? linear_ticks(axis.high) : log_ticks(axis.low, axis.high);
-}
 
 class Drawing {
   public:
@@ -193,38 +136,6 @@ std::string legend_text(const Plot& plot, const Curve& curve) {
 
 }  // namespace
 
-std::vector<double> log_ticks(double low, double high) {
-    std::vector<double> decades, finer;
-    const int first = static_cast<int>(std::floor(std::log10(low) - 1e-9));
-    for (int k = first; std::pow(10.0, k) <= high * (1 + 1e-9); ++k)
-        for (const double m : {1.0, 2.0, 5.0}) {
-            const double v = m * std::pow(10.0, k);
-            if (v < low * (1 - 1e-9) || v > high * (1 + 1e-9)) continue;
-            finer.push_back(v);
-            if (m == 1.0) decades.push_back(v);
-        }
-    return decades.size() < 3 ? finer : decades;
-}
-
-std::vector<double> linear_ticks(double high) {
-    const double step = round_up(high / 10.0);
-    std::vector<double> ticks;
-    for (int k = 0; k * step <= high * (1 + 1e-9); ++k) ticks.push_back(k * step);
-    return ticks;
-}
-
-std::string tick_text(double value) {
-    const int decade = static_cast<int>(std::floor(std::log10(value) + 1e-9));
-    if (decade >= -3 && decade < 4) return fmt::format("{:g}", value);
-    constexpr std::array<const char*, 10> raised{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-    std::string exponent = decade < 0 ? "⁻" : "";
-    for (const char digit : std::to_string(std::abs(decade)))
-        exponent += raised[static_cast<std::size_t>(digit - '0')];
-    const double mantissa = value / std::pow(10.0, decade);
-    const bool whole = std::abs(mantissa - 1.0) < 1e-6;
-    return (whole ? "" : fmt::format("{:g}·", std::round(mantissa))) + "10" + exponent;
-}
-
 std::string svg_of(const Plot& plot) {
     std::vector<double> costs, errors;
     std::size_t longest = 0;
@@ -239,9 +150,9 @@ std::string svg_of(const Plot& plot) {
     const double height = std::max(top + plot_height + bottom,
                                    top + line_height * static_cast<double>(plot.curves.size() + 1));
     Drawing d(std::ceil(left + plot_width + legend), std::ceil(height));
-    const PlotAxis x = plot.linear_x ? linear_axis_for(costs, left, left + plot_width)
-                                     : axis_for(costs, left, left + plot_width);
-    const PlotAxis y = axis_for(errors, top + plot_height, top);
+    const PlotAxis x = plot.linear_x ? linear_axis(costs, left, left + plot_width)
+                                     : log_axis(costs, left, left + plot_width);
+    const PlotAxis y = log_axis(errors, top + plot_height, top);
     draw_axes(d, plot, x, y);
     if (costs.empty())
         d.text(left + 0.5 * plot_width, top + 0.5 * plot_height, "no run to show",

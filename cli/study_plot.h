@@ -25,15 +25,4 @@ struct Plot {
 // A plot without points says so.
 std::string svg_of(const Plot& plot);
 
-// Ticks of a logarithmic axis from low to high: whole decades, and 2 and 5 of each where there are
-//   fewer than three of those.
-std::vector<double> log_ticks(double low, double high);
-
-// Ticks of a linear axis from 0 to high: multiples of 1, 2 or 5 times a power of ten, 4 to 10 of
-// them.
-std::vector<double> linear_ticks(double high);
-
-// "0.1", "30", "2·10⁵".
-std::string tick_text(double value);
-
 }  // namespace tyndall::cli

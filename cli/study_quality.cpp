@@ -1,19 +1,11 @@
 #include "cli/study_quality.h"
 
 #include <algorithm>
-#include <cmath>
-#include <glm/geometric.hpp>
+
+#include "view/shape_quality.h"
 
 namespace tyndall::cli {
 namespace {
-
-template <std::size_t size>
-double squared_edges(const std::array<mesh::Point, size>& p) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < size; ++i)
-        for (std::size_t j = i + 1; j < size; ++j) sum += glm::dot(p[i] - p[j], p[i] - p[j]);
-    return sum;
-}
 
 template <std::size_t size, class Node>
 void measure(const mesh::Forest& forest, const std::vector<Node>& nodes, double& least,
@@ -22,7 +14,7 @@ void measure(const mesh::Forest& forest, const std::vector<Node>& nodes, double&
     for (const Node node : nodes) {
         std::array<mesh::Point, size> corners;
         for (std::size_t k = 0; k < size; ++k) corners[k] = forest.point(forest[node].corners[k]);
-        const double quality = mean_ratio(corners);
+        const double quality = view::mean_ratio(corners);
         least = std::min(least, quality);
         sum += quality;
     }
@@ -30,19 +22,6 @@ void measure(const mesh::Forest& forest, const std::vector<Node>& nodes, double&
 }
 
 }  // namespace
-
-double mean_ratio(const std::array<mesh::Point, 4>& p) {
-    const double volume =
-        std::abs(glm::dot(glm::cross(p[1] - p[0], p[2] - p[0]), p[3] - p[0])) / 6.0;
-    const double edges = squared_edges(p);
-    return edges > 0.0 ? 12.0 * std::cbrt(9.0 * volume * volume) / edges : 0.0;
-}
-
-double mean_ratio(const std::array<mesh::Point, 3>& p) {
-    const double area = 0.5 * glm::length(glm::cross(p[1] - p[0], p[2] - p[0]));
-    const double edges = squared_edges(p);
-    return edges > 0.0 ? 4.0 * std::sqrt(3.0) * area / edges : 0.0;
-}
 
 ElementQuality element_quality(const radiosity::Solution& solution) {
     const auto elements = radiosity::elements_of_leaves(*solution.enclosure, solution.forest);

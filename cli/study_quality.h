@@ -6,13 +6,7 @@
 
 namespace tyndall::cli {
 
-// Purpose: how regular a tetrahedron or triangle is: 1 for equal edges l, 0 for no volume V or area
-//   A.
-// Equation: 12 (3 V)^(2/3) / sum l², 4 sqrt(3) A / sum l².
-// Source: Liu & Joe (1994), Relationship between tetrahedron shape measures (mean ratio).
-double mean_ratio(const std::array<mesh::Point, 4>& corners);
-double mean_ratio(const std::array<mesh::Point, 3>& corners);
-
+// Mean ratios (view/shape_quality.h).
 struct ElementQuality {
     double tet_min = 1.0, tet_mean = 1.0;            // of zones [-]
     double triangle_min = 1.0, triangle_mean = 1.0;  // of patches [-]

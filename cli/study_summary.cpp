@@ -12,6 +12,7 @@
 #include "cli/study_plot.h"
 #include "cli/study_table.h"
 #include "mesh/file_bytes.h"
+#include "view/plot_axis.h"
 
 namespace tyndall::cli {
 namespace {
@@ -62,7 +63,7 @@ std::string guess_words(double value) {
     if (rounded < 100.0) return fmt::format("{:.2g}", rounded);
     if (rounded < 999'999.5) return fmt::format("{:.0f}", rounded);
     const double decade = std::pow(10.0, std::floor(std::log10(rounded) + 1e-9));
-    return fmt::format("{:.1f}·{}", rounded / decade, tick_text(decade));
+    return fmt::format("{:.1f}·{}", rounded / decade, view::tick_text(decade));
 }
 
 std::string need_words(const Need& need) {

@@ -4,6 +4,7 @@
 
 #include "cli/commands.h"
 #include "cli/job.h"
+#include "cli/report_file.h"
 #include "cli/view_file.h"
 #include "mesh/file_bytes.h"
 #include "mesh/input_error.h"
@@ -41,27 +42,74 @@ std::string report_beside(const fs::path& solution, const radiosity::Report& rep
     return same ? text : "";
 }
 
-int make_view(const ViewOptions& options, const CommonFlags& flags) {
-    const auto page = page_path(options);
+// Cameras that --set has changed: the mesh was refined for others.
+std::vector<std::string> camera_notes(const ViewSettings& solved, const ViewSettings& shown) {
+    std::vector<std::string> notes;
+    for (std::size_t k = 0; k < solved.cameras.size() && k < shown.cameras.size(); ++k)
+        if (solved.cameras[k].name == solved.view_camera && solved.cameras[k] != shown.cameras[k])
+            notes.push_back(fmt::format(
+                "Camera \"{}\" has been changed since the mesh was refined for it: what it sees "
+                "now may be coarser than the estimated error of the picture says. Solve again, or "
+                "with solve.camera = \"\" for a mesh that is good from everywhere.",
+                solved.view_camera));
+    return notes;
+}
+
+// The picture beside the solution, if it is of the same run.
+fs::path picture_beside(const fs::path& solution, const std::string& report) {
+    const auto path = solution.parent_path() / "image.png";
+    std::error_code ignored;
+    const bool old = report.empty() || report.find("image.exr in ") != std::string::npos;
+    return old || !fs::exists(path, ignored) ? fs::path() : path;
+}
+
+struct Made {
+    fs::path page, report;  // empty: not made
+};
+
+// view.html and, beside it, report.html; a page of another name stands for itself.
+Made write_pages(const ViewOptions& options, const CommonFlags& flags,
+                 const radiosity::SolutionFile& file) {
     const auto path = solution_path(options.solution);
-    const auto file = radiosity::read_solution(path);
     const auto scene = attached_scene(file.attachments);
     ViewSettings settings;
-    if (!scene.empty()) settings = read_view_settings(scene, override_texts(flags));
+    std::vector<std::string> notes;
+    if (!scene.empty()) {
+        settings = read_view_settings(scene, override_texts(flags));
+        notes = camera_notes(read_view_settings(scene, {}), settings);
+    }
     settings.render.threads = flags.threads;
-    write_view(page, file.solution, settings, report_beside(path, file.solution.report),
-               path.parent_path().filename().string());
-    const auto bytes = fs::file_size(page);
+    const auto report = report_beside(path, file.solution.report);
+    const auto untitled = path.parent_path().filename().string();
+    Made made{page_path(options), {}};
+    if (options.out.empty()) made.report = path.parent_path() / "report.html";
+    write_view(made.page, file.solution, settings,
+               {report, untitled, scene.empty() ? 0.0 : reported_scene(scene).goal,
+                made.report.filename().string()});
+    if (!made.report.empty())
+        write_report(made.report, file.solution, settings,
+                     {report, scene, picture_beside(path, report), made.page.filename().string(),
+                      notes, untitled});
+    return made;
+}
+
+int make_view(const ViewOptions& options, const CommonFlags& flags) {
+    page_path(options);  // refused before long work
+    const auto file = radiosity::read_solution(solution_path(options.solution));
+    const Made made = write_pages(options, flags, file);
+    const auto bytes = fs::file_size(made.page);
+    nlohmann::ordered_json json{{"file", made.page.string()},
+                                {"bytes", bytes},
+                                {"patches", file.solution.report.patches},
+                                {"zones", file.solution.report.zones}};
+    if (!made.report.empty()) json["report"] = made.report.string();
     if (flags.json)
-        write_output(nlohmann::ordered_json{{"file", page.string()},
-                                            {"bytes", bytes},
-                                            {"patches", file.solution.report.patches},
-                                            {"zones", file.solution.report.zones}}
-                         .dump(2) +
-                     "\n");
+        write_output(json.dump(2) + "\n");
     else if (!flags.quiet)
-        write_output(fmt::format("wrote    {} ({:.1f} MB): open it in a browser\n", page.string(),
-                                 static_cast<double>(bytes) / 1e6));
+        write_output(fmt::format(
+            "wrote    {} ({:.1f} MB): open it in a browser\n{}", made.page.string(),
+            static_cast<double>(bytes) / 1e6,
+            made.report.empty() ? "" : fmt::format("wrote    {}\n", made.report.string())));
     return 0;
 }
 
@@ -70,7 +118,7 @@ int make_view(const ViewOptions& options, const CommonFlags& flags) {
 void add_view_command(Shell& shell) {
     const auto options = std::make_shared<ViewOptions>();
     auto command = shell.add_command(
-        "view", "A page to walk through the solution in a browser",
+        "view", "Pages of a solution: to walk through it in a browser, and its report",
         R"(  tyndall view out/
   tyndall view out/ -o talk.html --set camera.main.fov_x=60)",
         [options](const CommonFlags& flags) { return make_view(*options, flags); });
@@ -79,7 +127,9 @@ void add_view_command(Shell& shell) {
         .required()
         .file({"vtkhdf"})
         .folder();
-    command.option("-o,--output", options->out, "Page; else view.html beside the solution")
+    command
+        .option("-o,--output", options->out,
+                "Page to walk through alone; else view.html and report.html beside the solution")
         .file({"html"});
 }
 

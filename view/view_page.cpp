@@ -11,8 +11,12 @@
 #include "render/line_of_sight.h"
 #include "render/renderers.h"
 #include "render/tone_map.h"
+#include "view/markup.h"
+#include "view/mesh_statistics.h"
 #include "view/packed_arrays.h"
 #include "view/page_sources.h"
+#include "view/report_notes.h"
+#include "view/report_sections.h"
 #include "view/viewer_arrays.h"
 
 namespace tyndall::view {
@@ -182,25 +186,23 @@ std::string in_script(const std::string& json) {
     return result;
 }
 
-std::string in_html(const std::string& text) {
-    std::string result;
-    for (const char c : text)
-        result += c == '&' ? "&amp;" : c == '<' ? "&lt;" : c == '>' ? "&gt;" : std::string(1, c);
-    return result;
-}
-
-// The page with {{name}} replaced by what `text_of` says.
-template <class TextOf>
-std::string filled(std::string_view page, TextOf&& text_of) {
-    std::string result;
-    for (std::size_t at = 0;;) {
-        const std::size_t begin = page.find("{{", at), end = page.find("}}", begin);
-        if (begin == std::string_view::npos || end == std::string_view::npos)
-            return result += page.substr(at);
-        result += page.substr(at, begin - at);
-        result += text_of(page.substr(begin + 2, end - begin - 2));
-        at = end + 2;
-    }
+// The report at the foot of the page, as in report.html.
+std::string report_markup(const radiosity::Solution& solution, const SharpenedPatches& patches,
+                          const PageOptions& options) {
+    constexpr SectionLevel level{3};
+    const ReportFacts facts = report_facts(solution, options.report);
+    const auto notes = report_notes(solution, facts, mesh_statistics(solution), options.goal);
+    const auto finer = patches.left > 0 ? fmt::format("; {} would be finer", patches.left) : "";
+    return warnings_list(facts, notes) + solution_table(facts, options.goal) +
+           fmt::format(
+               "<p>For direct light patches are cut into {} more pieces in this page{}. "
+               "Made by Tyndall {}.</p>\n",
+               patches.made, finer, TYNDALL_VERSION) +
+           section(level, "passes", "Passes", passes_figures(facts, options.goal)) +
+           section(level, "solver", "Solver", solver_figures(facts)) +
+           section(
+               level, "power", "Where the light goes",
+               power_figures(facts, named_sizes(*solution.enclosure)) + temperature_table(facts));
 }
 
 }  // namespace
@@ -213,7 +215,11 @@ std::string view_page(const radiosity::Solution& solution, const PageOptions& op
     const PackedArrays packed = pack(arrays);
     const auto meta = meta_json(solution, arrays, patches, packed, options);
     return filled(page_source("page.html"), [&](std::string_view name) -> std::string {
-        if (name == "title") return in_html(options.title);
+        if (name == "title") return escaped(options.title);
+        if (name == "report") return report_markup(solution, patches, options);
+        if (name == "report_link" && !options.report_link.empty())
+            return fmt::format("<p><a href=\"{}\">All figures, to print</a></p>",
+                               escaped(options.report_link));
         if (name == "meta")
             return in_script(meta.dump(-1, ' ', false, Json::error_handler_t::replace));
         if (name == "arrays") return packed.text();

@@ -19,6 +19,8 @@ struct PageOptions {
     render::ToneMapOptions tone_map;
     // A JSON object with the keys of report.json; "": that of the solution.
     std::string report;
+    double goal = 0.0;        // solve.error; 0: not known [-]
+    std::string report_link;  // where report.html is; "": nowhere
     SharpenOptions sharpen;
     std::size_t threads = 0;  // 0: all
 };

@@ -5,7 +5,6 @@
 #include "cli/probe_values_file.h"
 #include "cli/study_histories.h"
 #include "cli/study_plot.h"
-#include "cli/study_quality.h"
 #include "cli/study_summary.h"
 #include "cli/study_table.h"
 #include "mesh/input_error.h"
@@ -212,48 +211,9 @@ TEST_CASE("Solver histories are curves of the slowest band, drawn on a linear ax
     for (auto at = svg.find("<circle"); at != svg.npos; at = svg.find("<circle", at + 1)) ++marks;
     CHECK(marks <= 13);  // and one in the legend
     CHECK(marks > 6);
-    CHECK(linear_ticks(52.5) == std::vector<double>{0, 10, 20, 30, 40, 50});
 
     auto study = study_of_error();
     CHECK_FALSE(compares_solvers(study));
     study.matrices[0].axes[0].key = "solve.solver";
     CHECK(compares_solvers(study));
-}
-
-TEST_CASE("Ticks stand at decades, and at 2 and 5 where there are few") {
-    CHECK(log_ticks(90, 200000) == std::vector<double>{100, 1000, 10000, 100000});
-    CHECK(log_ticks(1, 20) == std::vector<double>{1, 2, 5, 10, 20});
-    CHECK(tick_text(0.01) == "0.01");
-    CHECK(tick_text(2000) == "2000");
-    CHECK(tick_text(2e5) == "2·10⁵");
-    CHECK(tick_text(1e-12) == "10⁻¹²");
-}
-
-TEST_CASE("Shape quality is 1 for regular elements and falls to 0") {
-    using Triangle = std::array<mesh::Point, 3>;
-    using Tet = std::array<mesh::Point, 4>;
-    const double h = std::sqrt(3.0) / 2.0;
-    CHECK(mean_ratio(Triangle{{{0, 0, 0}, {1, 0, 0}, {0.5, h, 0}}}) == Approx(1.0));
-    CHECK(mean_ratio(Tet{{{1, 1, 1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}}) == Approx(1.0));
-    // A right isosceles triangle: 4 √3 · ½ / 4 = √3/2.
-    CHECK(mean_ratio(Triangle{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}) == Approx(h));
-    CHECK(mean_ratio(Triangle{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}}}) == 0.0);
-    CHECK(mean_ratio(Tet{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}}) == 0.0);
-    // Size and orientation do not matter.
-    CHECK(mean_ratio(Tet{{{5, 5, 5}, {5, -5, -5}, {-5, -5, 5}, {-5, 5, -5}}}) == Approx(1.0));
-}
-
-TEST_CASE("Probe values are read as tyndall probe writes them") {
-    const auto in_space =
-        parse_probe_values("x,y,z,J,J_direct,G,G_direct\n1,2,3,0.5,0.1,7,8\n", "p");
-    CHECK(in_space.points.at(0).x == mesh::Point(1, 2, 3));
-    CHECK_FALSE(in_space.points[0].on_side());
-    CHECK(in_space.values.at(0) == radiosity::Spectrum{0.5});
-    const auto on_sides =
-        parse_probe_values("# walls\nx,y,z,nx,ny,nz,E_0,E_1\n0,0,0,0,0,1,3,4\n\n", "p");
-    CHECK(on_sides.points.at(0).normal == mesh::Direction(0, 0, 1));
-    CHECK(on_sides.values.at(0) == radiosity::Spectrum{3.0, 4.0});
-    for (const char* text : {"", "x,y,z,J\n", "x,y,J\n1,2,3\n", "x,y,z\n1,2,3\n",
-                             "x,y,z,J\n1,2,3\n", "x,y,z,J\n1,2,3,nan\n", "x,y,z,J\n1,2,3,a\n"})
-        CHECK_THROWS_AS(parse_probe_values(text, "p"), mesh::InputError);
 }

@@ -1,5 +1,12 @@
 // The page: settings, the loop that draws, and the link that restores a view.
 
+function element(name, attributes = {}, ...children) {
+  const made = document.createElement(name);
+  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
+  made.append(...children);
+  return made;
+}
+
 const by = (id) => document.getElementById(id);
 const CURVES = ['shoulder', 'filmic', 'reinhard', 'linear'];
 
@@ -332,7 +339,6 @@ function showNotice(text) {
 
 async function begin() {
   const meta = JSON.parse(by('meta').textContent);
-  writeReport(by('report'), meta);
   const testing = location.hash === '#selftest';
   try {
     const tables = new Tables(meta, await unpackArrays(meta, by('arrays').textContent));
