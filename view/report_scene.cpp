@@ -47,7 +47,9 @@ std::string point_text(glm::dvec3 p) {
 // What a side gives by itself. Where a flux is given, e of the one equation is q/π.
 std::string given_by(const SurfaceSide& side, std::size_t bands) {
     if (side.settled_flux) return figure(*side.settled_flux) + " W/m² net";
-    const bool flux = !side.emissivity.empty();
+    bool flux = false;
+    for (std::size_t b = 0; b < side.emissivity.size(); ++b)
+        flux = flux || side.reflectance[b] > 1.0 - side.emissivity[b];
     if (flux)
         return spectrum_text(mapped(bands, [&](std::size_t b) { return pi * side.emission[b]; })) +
                " W/m² net";
@@ -87,7 +89,9 @@ Spectrum albedo_of(const MediumOptics& medium, std::size_t bands) {
 
 std::string given_by(const MediumOptics& medium, std::size_t bands) {
     if (medium.settled_heat) return figure(*medium.settled_heat) + " W/m³";
-    const bool heat = medium.albedo != albedo_of(medium, bands) && any_positive(medium.absorption);
+    const Spectrum albedo = albedo_of(medium, bands);
+    bool heat = false;
+    for (std::size_t b = 0; b < bands; ++b) heat = heat || medium.albedo[b] > albedo[b] + 1e-9;
     if (heat)
         return spectrum_text(mapped(bands,
                                     [&](std::size_t b) {

@@ -112,7 +112,8 @@ void add_sums(Table& table, const Report& report) {
     };
     row("sum of what gives", gives);
     row("sum of what takes", takes);
-    row("sum of all: minus the power of sun, point and spot lights", gives + takes);
+    row("sum of all: minus what sun, point and spot lights give, and what is missed",
+        gives + takes);
 }
 
 std::string figure_markup(const std::string& caption, const std::string& chart,
@@ -290,14 +291,15 @@ std::string power_figures(const ReportFacts& facts, const std::map<std::string, 
     const std::string title = bars.size() < r.net_power.size()
                                   ? fmt::format("Net power, the {} largest", bars.size())
                                   : "Net power by name";
-    return chart_figure(title,
+    return "<div class=\"beside\">" +
+           chart_figure(title,
                         bar_chart({title,
                                    "Bars to the right give light, bars to the left take it; "
                                    "the numbers stand in the table beside.",
                                    "W", ""},
                                   bars),
                         table_markup(table)) +
-           (bands > 1 ? bands_table(r, bands) : "");
+           "</div>\n" + (bands > 1 ? bands_table(r, bands) : "");
 }
 
 std::string temperature_table(const ReportFacts& facts) {

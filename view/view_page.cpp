@@ -116,6 +116,21 @@ Json names_json(const radiosity::Enclosure& enclosure) {
     return {{"sides", sides}, {"media", media}};
 }
 
+// What leads from leaves to the elements of earlier passes, and those.
+void pack_passes(const std::vector<std::int32_t>& above, const std::vector<std::int32_t>& born,
+                 const CoarserElements& coarser, const std::string& kind, PackedArrays& packed) {
+    packed.add(kind + "_above", above);
+    packed.add(kind + "_born", born);
+    packed.add("coarser_" + kind + "_above", coarser.above);
+    packed.add("coarser_" + kind + "_born", coarser.born);
+    packed.add("coarser_" + kind + "_row", coarser.row);
+    packed.add("coarser_" + kind + "_level", coarser.level);
+    packed.add("coarser_" + kind + "_error", coarser.error);
+    packed.add("coarser_" + kind + "_size", coarser.size);
+    packed.add("coarser_" + kind + "_direct", coarser.direct);
+    packed.add("coarser_" + kind + "_indirect", coarser.indirect);
+}
+
 PackedArrays pack(const ViewerArrays& a) {
     PackedArrays packed;
     packed.add("planes", a.planes);
@@ -139,6 +154,8 @@ PackedArrays pack(const ViewerArrays& a) {
     packed.add("patch_indirect", a.patch_indirect);
     packed.add("piece_patch", a.piece_patch);
     packed.add("piece_direct", a.piece_direct);
+    pack_passes(a.zone_above, a.zone_born, a.coarser_zones, "zone", packed);
+    pack_passes(a.patch_above, a.patch_born, a.coarser_patches, "patch", packed);
     packed.add("rows", a.rows);
     packed.add("hull_corners", a.hull_corners);
     packed.add("hull_zones", a.hull_zones);
@@ -169,7 +186,11 @@ Json meta_json(const radiosity::Solution& solution, const ViewerArrays& arrays,
               {"names", names_json(e)},
               {"pieces_made", patches.made},
               {"pieces_left", patches.left},
+              {"meshes", Json::array()},
               {"arrays", Json::array()}};
+    for (const auto& mesh : arrays.meshes)
+        meta["meshes"].push_back(
+            {{"passes", mesh.passes}, {"patches", mesh.patches}, {"zones", mesh.zones}});
     for (const auto& entry : packed.entries())
         meta["arrays"].push_back({entry.name, std::string(1, entry.type), entry.count});
     meta["report"] =

@@ -1,6 +1,9 @@
 #include "view/viewer_arrays.h"
 
+#include <cmath>
 #include <glm/geometric.hpp>
+#include <type_traits>
+#include <unordered_map>
 
 namespace tyndall::view {
 namespace {
@@ -31,7 +34,10 @@ int replaced_corner(const Node& parent, const Node& child) {
 class Packer {
   public:
     Packer(const radiosity::Solution& solution, const SharpenedPatches& sharpened)
-        : s_(solution), e_(*solution.enclosure), sharpened_(sharpened) {
+        : s_(with_inner_nodes(solution)),
+          e_(*solution.enclosure),
+          sharpened_(sharpened),
+          passes_(pass_meshes(solution)) {
         a_.bands = e_.bands;
         a_.origin = 0.5 * (e_.mesh.hull_min + e_.mesh.hull_max);
         zone_rope_.resize(s_.forest.zone_count());
@@ -48,6 +54,10 @@ class Packer {
             add_zones(mesh::root_zone(TetId(t)), base_faces_[t]);
         for (std::size_t p = 0; p < 2 * e_.mesh.facets.size(); ++p)
             if (side_of(PatchId(p)) != none) add_pieces(PatchId(p), PatchId());
+        a_.meshes = passes_.meshes;
+        add_coarser(zone_order_, passes_.zone_born, a_.zone_above, a_.zone_born, a_.coarser_zones);
+        add_coarser(patch_order_, passes_.patch_born, a_.patch_above, a_.patch_born,
+                    a_.coarser_patches);
         return std::move(a_);
     }
 
@@ -206,6 +216,7 @@ class Packer {
     }
 
     void add_zone(ZoneId zone, const Faces& faces) {
+        zone_order_.push_back(zone);
         a_.zone_planes.insert(a_.zone_planes.end(), faces.planes.begin(), faces.planes.end());
         a_.zone_ropes.insert(a_.zone_ropes.end(), faces.ropes.begin(), faces.ropes.end());
         const TetId tet = s_.forest.base_tet(zone);
@@ -266,6 +277,7 @@ class Packer {
     }
 
     void add_patch(PatchId patch) {
+        patch_order_.push_back(patch);
         const auto side = radiosity::side_of(e_, s_.forest, patch);
         a_.patch_row.push_back(row_of(patch, e_.media.size() + side));
         a_.patch_side.push_back(static_cast<std::int32_t>(side));
@@ -277,9 +289,91 @@ class Packer {
                          radiosity::scatter_of(s_, patch, b));
     }
 
-    const radiosity::Solution& s_;
+    // The elements of earlier passes above `leaves`, which were leaves themselves when such a pass
+    // ended: those whose children were born in a later one.
+    template <class Node>
+    void add_coarser(const std::vector<Node>& leaves, const std::vector<std::int32_t>& born,
+                     std::vector<std::int32_t>& above, std::vector<std::int32_t>& leaf_born,
+                     CoarserElements& coarser) {
+        std::unordered_map<std::uint32_t, std::int32_t> known;
+        std::vector<double> squares;
+        for (const Node leaf : leaves) {
+            leaf_born.push_back(born[leaf.value]);
+            above.push_back(-1);
+            std::int32_t last = -1;  // of those found; -1: the leaf itself
+            Node child = leaf;
+            for (Node node = s_.forest[leaf].parent; node.valid();
+                 child = node, node = s_.forest[node].parent) {
+                if (born[child.value] == born[node.value]) continue;
+                const auto [at, is_new] =
+                    known.emplace(node.value, static_cast<std::int32_t>(coarser.born.size()));
+                if (is_new) {
+                    add_coarser_element(node, born[node.value], coarser);
+                    squares.push_back(0.0);
+                }
+                (last < 0 ? above.back() : coarser.above[last]) = at->second;
+                last = at->second;
+                squares[last] += squared_error(leaf, node);
+            }
+        }
+        for (std::size_t k = 0; k < squares.size(); ++k)
+            coarser.error.push_back(
+                static_cast<float>(std::sqrt(squares[k] / static_cast<double>(coarser.size[k]))));
+    }
+
+    void add_coarser_element(ZoneId zone, std::int32_t born, CoarserElements& c) {
+        const auto medium = radiosity::medium_of(e_, s_.forest, zone);
+        c.row.push_back(row_of(zone, medium));
+        c.size.push_back(static_cast<float>(s_.forest.volume(zone)));
+        for (std::size_t b = 0; b < e_.bands; ++b)
+            add_function(c.direct, s_.direct.at(zone, b), e_.media[medium].albedo[b]);
+        add_coarser_common(zone, born, c);
+    }
+
+    void add_coarser_element(PatchId patch, std::int32_t born, CoarserElements& c) {
+        c.row.push_back(row_of(patch, e_.media.size() + side_of(patch)));
+        c.size.push_back(static_cast<float>(s_.forest.area(patch)));
+        add_coarser_common(patch, born, c);
+    }
+
+    template <class Node>
+    void add_coarser_common(Node node, std::int32_t born, CoarserElements& c) {
+        c.above.push_back(-1);
+        c.born.push_back(born);
+        c.level.push_back(static_cast<std::int32_t>(s_.forest[node].level));
+        for (std::size_t b = 0; b < e_.bands; ++b)
+            add_function(c.indirect, s_.indirect.at(node, b), radiosity::scatter_of(s_, node, b));
+    }
+
+    // What a leaf adds to the squared error of an element above it, times its size: of the band
+    // that is off most, at its centroid. Direct light on patches is drawn anew, and does not count.
+    template <class Node>
+    double squared_error(Node leaf, Node above) const {
+        constexpr bool zone = std::is_same_v<Node, ZoneId>;
+        const Point x = s_.forest.centroid(leaf);
+        double off = 0.0;
+        for (std::size_t b = 0; b < e_.bands; ++b) {
+            double difference = s_.indirect.at(leaf, b).at(x) - s_.indirect.at(above, b).at(x);
+            if (zone) difference += s_.direct.at(leaf, b).at(x) - s_.direct.at(above, b).at(x);
+            off = std::max(off, std::abs(radiosity::scatter_of(s_, leaf, b) * difference));
+        }
+        double own = 0.0, size = 0.0;
+        if constexpr (zone) {
+            own = s_.zone_error[leaf.value];
+            size = s_.forest.volume(leaf);
+        } else {
+            own = s_.patch_error[leaf.value];
+            size = s_.forest.area(leaf);
+        }
+        return size * (off * off + own * own);
+    }
+
+    const radiosity::Solution s_;
     const radiosity::Enclosure& e_;
     const SharpenedPatches& sharpened_;
+    const PassMeshes passes_;
+    std::vector<ZoneId> zone_order_;  // leaves in the order of the arrays
+    std::vector<PatchId> patch_order_;
     ViewerArrays a_;
     std::vector<std::int32_t> zone_rope_, piece_rope_;  // of every node: what leads to it
     std::vector<Faces> base_faces_;

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "radiosity/solution.h"
+#include "view/pass_meshes.h"
 #include "view/sharpened_patches.h"
 
 namespace tyndall::view {
@@ -28,6 +29,17 @@ inline std::int32_t rope_to(RopeKind kind, std::size_t index) {
 
 // Rows of zones that hold no medium.
 inline constexpr std::int32_t empty_space = -1, solid_inside = -2;
+
+// Elements of the meshes of earlier passes that have been bisected since, zones or patches: what
+// the leaves below them hold in the mean. `above`: the next coarser one, -1 none; `born`: the first
+// mesh of PassMeshes that has it. Functions and rows as those of leaves.
+struct CoarserElements {
+    std::vector<std::int32_t> above, born, row, level;
+    // How far the leaves are off it and off the truth, root mean square [W/m^2/sr].
+    std::vector<float> error;
+    std::vector<float> size;              // [m^3], [m^2]
+    std::vector<float> direct, indirect;  // of patches indirect alone: direct light has its pieces
+};
 
 // Lengths are counted from `origin`, so that single precision serves far from the scene's own; all
 // but that in [m]. Functions are (gradient, value at the origin): four numbers a band.
@@ -64,6 +76,11 @@ struct ViewerArrays {
     std::vector<float> patch_indirect;  // reflectance × indirect [W/m^2/sr]
     std::vector<std::int32_t> piece_patch;
     std::vector<float> piece_direct;  // reflectance × direct [W/m^2/sr]
+
+    // What led to them: of each leaf and patch, likewise.
+    std::vector<PassMesh> meshes;
+    std::vector<std::int32_t> zone_above, zone_born, patch_above, patch_born;
+    CoarserElements coarser_zones, coarser_patches;
 
     // Of media, sides, and elements that settle their own emission: 2 a band: extinction [1/m],
     // emission [W/m^2/sr].

@@ -10,9 +10,11 @@
 #include "mesh/input_error.h"
 #include "render/mesh_pictures.h"
 #include "support/catch.h"
+#include "support/well_formed.h"
 
 using namespace tyndall;
 using namespace tyndall::cli;
+using test::well_formed;
 
 namespace {
 
@@ -44,37 +46,6 @@ Study study_of_error() {
     study.matrices = {{"", {{"solve.error", {{"0.1", "0.1", 0.1, ""}}, ""}}, 0}};
     study.errors = {0.01};
     return study;
-}
-
-// Whether tags close in order, attributes stand in quotes and no sign of XML is loose in a text.
-bool well_formed(const std::string& xml) {
-    std::vector<std::string> open;
-    for (std::size_t at = 0; at < xml.size();) {
-        if (xml[at] == '&') {
-            const auto end = xml.find(';', at);
-            const auto name = xml.substr(at + 1, end - at - 1);
-            if (name != "lt" && name != "gt" && name != "amp" && name != "quot") return false;
-        }
-        if (xml[at] != '<') {
-            if (xml[at] == '>') return false;
-            ++at;
-            continue;
-        }
-        const auto end = xml.find('>', at);
-        if (end == xml.npos) return false;
-        const std::string tag = xml.substr(at + 1, end - at - 1);
-        if (std::count(tag.begin(), tag.end(), '"') % 2 != 0) return false;
-        if (tag.find('<') != tag.npos) return false;
-        const std::string name = tag.substr(0, tag.find_first_of(" /", 1));
-        if (tag[0] == '/') {
-            if (open.empty() || "/" + open.back() != tag) return false;
-            open.pop_back();
-        } else if (tag.back() != '/') {
-            open.push_back(name);
-        }
-        at = end + 1;
-    }
-    return open.empty();
 }
 
 }  // namespace
@@ -216,4 +187,19 @@ TEST_CASE("Solver histories are curves of the slowest band, drawn on a linear ax
     CHECK_FALSE(compares_solvers(study));
     study.matrices[0].axes[0].key = "solve.solver";
     CHECK(compares_solvers(study));
+}
+
+TEST_CASE("Probe values are read as tyndall probe writes them") {
+    const auto in_space =
+        parse_probe_values("x,y,z,J,J_direct,G,G_direct\n1,2,3,0.5,0.1,7,8\n", "p");
+    CHECK(in_space.points.at(0).x == mesh::Point(1, 2, 3));
+    CHECK_FALSE(in_space.points[0].on_side());
+    CHECK(in_space.values.at(0) == radiosity::Spectrum{0.5});
+    const auto on_sides =
+        parse_probe_values("# walls\nx,y,z,nx,ny,nz,E_0,E_1\n0,0,0,0,0,1,3,4\n\n", "p");
+    CHECK(on_sides.points.at(0).normal == mesh::Direction(0, 0, 1));
+    CHECK(on_sides.values.at(0) == radiosity::Spectrum{3.0, 4.0});
+    for (const char* text : {"", "x,y,z,J\n", "x,y,J\n1,2,3\n", "x,y,z\n1,2,3\n",
+                             "x,y,z,J\n1,2,3\n", "x,y,z,J\n1,2,3,nan\n", "x,y,z,J\n1,2,3,a\n"})
+        CHECK_THROWS_AS(parse_probe_values(text, "p"), mesh::InputError);
 }

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
-"""view.html in a real browser: page_in_browser.py TYNDALL SCENE FOLDER
+"""view.html and report.html in a real browser: page_in_browser.py TYNDALL SCENE FOLDER
 
-Solves a small scene, and opens its page in headless Chromium: the GPU's picture (here a software
-one) against the walk in double precision, pixel by pixel; then keys, clicks and sliders. Exits with
+Solves a small scene, and opens its pages in headless Chromium: the GPU's picture (here a software
+one) against the walk in double precision, pixel by pixel; then keys, clicks and sliders, and the report. Exits with
 77, skipped, where Chromium, its driver or Selenium are missing (./bootstrap test installs them),
 unless TYNDALL_REQUIRE_BROWSER is set.
 """
@@ -185,6 +185,63 @@ def link(browser):
     check(browser.run("return window.tyndall.link()") == address, "and is the same again")
 
 
+def passes(browser):
+    """The slider through the meshes of the passes."""
+    meshes = browser.run("return window.tyndall.meta.meshes")
+    check(len(meshes) > 1, f"the meshes of earlier passes are there {meshes}")
+    check(meshes[-1]["zones"] == browser.run("return window.tyndall.meta.report.zones"), "the last is the report's")
+    browser.set("cut", "x")
+    browser.set("cut_at", "0.4")
+    browser.set("colours", "1")
+    last = browser.pixels()
+    browser.set("pass", "0")
+    first = browser.pixels()
+    check(max(abs(a - b) for a, b in zip(first, last)) > 0.05, f"an earlier mesh has other levels {first} {last}")
+    said = browser.driver.find_element("id", "pass_value").text
+    check(meshes[0]["passes"] in said and str(meshes[0]["zones"]) in said, f"the slider says which {said!r}")
+    check("pass=0" in browser.run("return window.tyndall.link()"), "the link knows it")
+    shown = browser.run("""
+        const t = window.tyndall.tables, seen = new Set();
+        for (let z = 0; z < t.zoneCount; ++z)
+          if (t.zones[4 * t.zoneStride * z + 20] >= 0) seen.add(t.zones[4 * t.zoneStride * z + 21]);
+        return seen.size;""")
+    check(shown == meshes[0]["zones"], f"it shows as many zones as that pass had: {shown}")
+    browser.keys("]")
+    check(browser.run("return document.getElementById('pass').value") == "1", "] goes to the next")
+    browser.set("pass", str(len(meshes) - 1))
+    again = browser.pixels()
+    check(max(abs(a - b) for a, b in zip(again, last)) < 0.01, "and back")
+    browser.set("cut", "")
+    browser.settle()
+
+
+def report(browser):
+    """report.html, which has no script of its own."""
+    link = browser.driver.find_element("css selector", "header a[href='report.html']")
+    browser.run("arguments[0].click()", link)
+    browser.wait("return document.title.startsWith('Report:') && document.readyState === 'complete'")
+    charts = browser.run("return [...document.querySelectorAll('svg')].map((s) => "
+                         "[s.querySelector('title').textContent, s.querySelector('desc').textContent])")
+    check(len(charts) >= 8 and all(t and d for t, d in charts), f"its charts have titles {[t for t, d in charts]}")
+    check(browser.run("return [...document.querySelectorAll('table')].every((t) => t.caption.textContent)"),
+          "its tables have captions")
+    check(browser.run("return [...document.querySelectorAll('h1, h2')].map((h) => h.tagName)")[0] == "H1", "headings")
+    check(browser.run("return document.querySelector('img').naturalWidth") == 40, "the picture is in it")
+    check("NaN" not in browser.run("return document.body.innerText"), "no NaN")
+    ids = browser.run("return [...document.querySelectorAll('nav a')].map((a) => a.getAttribute('href').slice(1))"
+                      ".filter((id) => !document.getElementById(id))")
+    check(not ids, f"its contents lead somewhere {ids}")
+    zones = json.loads((browser.page.parent / "report.json").read_text())["zones"]
+    check(browser.run("return [...document.querySelectorAll('#solution ~ * tbody tr')].map((r) => "
+                      "[r.cells[0].textContent, r.cells[1].textContent])").count(["zones", str(zones)]) == 1,
+          "its figures are those of report.json")
+    wide = browser.run("return document.documentElement.scrollWidth - document.documentElement.clientWidth")
+    check(wide <= 0, f"nothing is wider than the window: {wide}")
+    back = browser.driver.find_element("css selector", "header a")
+    browser.run("arguments[0].click()", back)
+    browser.wait("return document.getElementById('canvas') !== null")
+
+
 def for_everybody(browser):
     """What a screen reader and a keyboard need."""
     unnamed = browser.run("""
@@ -193,7 +250,7 @@ def for_everybody(browser):
     check(not unnamed, f"every control has a name {unnamed}")
     charts = browser.run("return [...document.querySelectorAll('svg')].map((s) => "
                          "[s.querySelector('title').textContent, s.querySelector('desc').textContent,"
-                         " s.closest('figure').querySelectorAll('tbody tr').length])")
+                         " s.closest('section').querySelectorAll('tbody tr').length])")
     check(charts and all(t and d and rows > 0 for t, d, rows in charts),
           f"charts have titles, descriptions and tables {charts}")
     check(browser.run("document.getElementById('canvas').focus();"
@@ -235,8 +292,11 @@ def main():
         look_around(browser)
         settings(browser)
         cut_and_pick(browser)
+        passes(browser)
         link(browser)
         for_everybody(browser)
+        if (folder / "report.html").exists():  # not where one page alone was given
+            report(browser)
         check(not browser.errors(), "no error on the console")
         without_webgl(browser)
     finally:

@@ -58,6 +58,7 @@ class Page {
     this.canvas = by('canvas');
     this.fit();
     this.picture = new Picture(this.canvas, tables, meta, sources);
+    this.tables = tables;
     this.scales = colourScales(tables);
     this.view = new View(meta.cameras[meta.camera]);
     this.exposure = 0;
@@ -81,6 +82,8 @@ class Page {
     by('camera').append(...cameras);
     by('camera').value = this.meta.camera;
     by('curve').value = CURVES[this.meta.curve];
+    by('passes').hidden = this.tables.lastMesh === 0;
+    by('pass').max = by('pass').value = this.tables.lastMesh;
   }
 
   listen() {
@@ -169,6 +172,12 @@ class Page {
     if (name === 'm') return toggle('medium');
     if (name === 'g') return toggle('edges');
     if (name === 'p') return this.pick(0, 0);
+    if ((name === '[' || name === ']') && this.tables.lastMesh > 0) {
+      by('pass').value = this.tables.mesh + (name === ']' ? 1 : -1);
+      this.settingsChanged();
+      say(`Mesh after the pass: ${by('pass_value').textContent}`);
+      return true;
+    }
     if (name === '+' || name === '-' || name === '=') {
       by('exposure').value = this.exposure + (name === '-' ? -0.5 : 0.5);
       this.settingsChanged();
@@ -184,11 +193,12 @@ class Page {
     const axis = 'xyz'.indexOf(by('cut').value);
     by('cut_value').textContent =
         by('cut').value ? (this.cutPlace() + this.meta.origin[axis]).toFixed(2) : '–';
+    this.showMesh(Number(by('pass').value));
     const look = this.look(), [low, high] = look.scale;
     const unit = look.colours > 1 ? ' W/m²/sr' : '';
     by('scale').textContent =
         look.colours ? `Colours: dark blue ${figure(low)} to yellow ${figure(high)}${unit}` : '';
-    const shape = JSON.stringify([look.layers, look.medium, look.clip, look.colours]);
+    const shape = JSON.stringify([look.layers, look.medium, look.clip, look.colours, this.tables.mesh]);
     if (shape === this.shape) {
       this.picture.showAgain(look);
       this.wake();
@@ -197,6 +207,17 @@ class Page {
     }
     this.shape = shape;
     this.keepLink();
+  }
+
+  showMesh(index) {
+    const mesh = this.meta.meshes[index];
+    if (!mesh) return;
+    const text = `${mesh.passes}: ${mesh.patches} patches, ${mesh.zones} zones`;
+    by('pass_value').textContent = text;
+    by('pass').setAttribute('aria-valuetext', text);
+    if (index === this.tables.mesh) return;
+    this.tables.showMesh(index);
+    this.picture.uploadMesh(this.tables);
   }
 
   moved() {
@@ -266,6 +287,7 @@ class Page {
       edges: Number(by('edges').checked),
       smooth: Number(by('smooth').checked)
     };
+    if (this.tables.mesh < this.tables.lastMesh) values.pass = this.tables.mesh;
     if (by('cut').value)
       Object.assign(values, {
         cut: by('cut').value,
@@ -302,6 +324,8 @@ class Page {
     if (has('medium')) by('medium').checked = values.get('medium') !== '0';
     if (has('edges')) by('edges').checked = values.get('edges') === '1';
     if (has('smooth')) by('smooth').checked = values.get('smooth') !== '0';
+    const pass = Number(values.get('pass'));
+    by('pass').value = has('pass') && this.meta.meshes[pass] ? pass : this.tables.lastMesh;
     by('cut').value = ['x', 'y', 'z'].includes(values.get('cut')) ? values.get('cut') : '';
     if (has('at')) by('cut_at').value = values.get('at');
     if (/^[0-3]$/.test(values.get('colours'))) by('colours').value = values.get('colours');
@@ -347,6 +371,11 @@ async function begin() {
     if (testing) {
       const picture = new Picture(by('canvas'), tables, meta, sources);
       const results = meta.cameras.map((camera) => selfTest(picture, meta, camera));
+      if (tables.lastMesh > 0) {
+        tables.showMesh(0);
+        picture.uploadMesh(tables);
+        results.push({...selfTest(picture, meta, meta.cameras[0]), mesh: meta.meshes[0].passes});
+      }
       document.body.append(element('pre', {id: 'selftest'}, JSON.stringify(results)));
       return;
     }

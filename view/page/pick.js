@@ -49,19 +49,20 @@ function placeRow(meta, x, t) {
 }
 
 function describeZone(walker, meta, zone, x, t) {
-  const {zones, zoneStride, zoneVolume} = walker.t, at = 4 * zoneStride * zone;
+  const {zones, zoneStride, zoneVolume, zoneMedium} = walker.t, at = 4 * zoneStride * zone;
+  const shown = zones[at + 21];
   const source = walker.sourceAt(zone, x), of = (f) => figures(source.map(f));
   return {
-    what: `zone ${zone} of ${meta.names.media[zones[at + 21]].name}`,
+    what: `zone ${shown} of ${meta.names.media[zoneMedium[zone]].name}`,
     kind: 'zone',
-    index: zone,
+    index: shown,
     rows: [
       ...placeRow(meta, x, t), ['J', `${of((s) => s.emission + s.direct + s.indirect)} W/m²/sr`],
       ['J, direct', `${of((s) => s.direct)} W/m²/sr`],
       ['J, indirect', `${of((s) => s.indirect)} W/m²/sr`],
       ['extinction', `${of((s) => s.extinction)} /m`],
       ['estimated error', `${figure(zones[at + 23])} W/m²/sr`],
-      ['volume', `${figure(zoneVolume[zone])} m³`], ['level', String(zones[at + 22])]
+      ['volume', `${figure(zoneVolume[shown])} m³`], ['level', String(zones[at + 22])]
     ]
   };
 }

@@ -89,6 +89,15 @@ class Picture {
     });
   }
 
+  // What changes with the mesh that is shown (Tables.showMesh).
+  uploadMesh(tables) {
+    for (const [name, unit] of [['zones', 0], ['pieces', 4]]) {
+      this.gl.deleteTexture(this.tables[unit]);
+      this.gl.activeTexture(this.gl.TEXTURE0 + unit);
+      this.tables[unit] = this.table(tables[name]);
+    }
+  }
+
   uploadHull(tables) {
     const gl = this.gl;
     this.hull = gl.createVertexArray();

@@ -157,7 +157,7 @@ void paint(int zone, vec3 x) {
     float t = colour_scale.z > 0.0 ? log(max(value, low) / low) / log(high / low)
                                    : (value - low) / (high - low);
     radiance = vec4(map_colour(t), -1.0);
-    element = uint(2 * zone + 2);
+    element = uint(2 * int(info.y) + 2);
 }
 
 // Where the ray begins to see (x), and where it ends on the clip plane (y).
