@@ -10,14 +10,28 @@ namespace {
 
 constexpr const char* not_known = "not known";
 
-std::string row_markup(const std::vector<std::string>& cells, bool numbers) {
+// Figures stand to the right.
+bool is_figure(const std::string& cell) {
+    return !cell.empty() && ((cell[0] >= '0' && cell[0] <= '9') || cell.starts_with("−") ||
+                             cell.starts_with(not_known));
+}
+
+const char* number_class(const Table& table, std::size_t column) {
+    const bool number =
+        column > 0 && table.numbers &&
+        std::any_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
+            return column < row.size() && is_figure(row[column]);
+        });
+    return number ? " class=\"number\"" : "";
+}
+
+std::string row_markup(const std::vector<std::string>& cells,
+                       const std::vector<std::string>& classes) {
     std::string row = "<tr>";
     for (std::size_t k = 0; k < cells.size(); ++k)
-        row += fmt::format("{}{}{}",
-                           k == 0    ? "<th scope=\"row\">"
-                           : numbers ? "<td class=\"number\">"
-                                     : "<td>",
-                           escaped(cells[k]), k == 0 ? "</th>" : "</td>");
+        row += k == 0 ? "<th scope=\"row\">" + escaped(cells[k]) + "</th>"
+                      : "<td" + classes[std::min(k, classes.size() - 1)] + ">" +
+                            escaped(cells[k]) + "</td>";
     return row + "</tr>\n";
 }
 
@@ -85,16 +99,14 @@ std::string table_markup(const Table& table) {
     std::string text = "<div class=\"wide\" tabindex=\"0\" role=\"group\" aria-label=\"" +
                        escaped(table.caption) + "\"><table><caption>" + escaped(table.caption) +
                        "</caption>\n";
-    if (!table.heads.empty()) {
-        text += "<thead><tr>";
-        for (std::size_t k = 0; k < table.heads.size(); ++k)
-            text += fmt::format("<th scope=\"col\"{}>{}</th>",
-                                k > 0 && table.numbers ? " class=\"number\"" : "",
-                                escaped(table.heads[k]));
-        text += "</tr></thead>\n";
+    std::vector<std::string> classes;
+    text += "<thead><tr>";
+    for (std::size_t k = 0; k < table.heads.size(); ++k) {
+        classes.push_back(number_class(table, k));
+        text += "<th scope=\"col\"" + classes[k] + ">" + escaped(table.heads[k]) + "</th>";
     }
-    text += "<tbody>\n";
-    for (const auto& row : table.rows) text += row_markup(row, table.numbers);
+    text += "</tr></thead>\n<tbody>\n";
+    for (const auto& row : table.rows) text += row_markup(row, classes);
     return text + "</tbody></table></div>\n";
 }
 

@@ -22,12 +22,13 @@ std::string percent(double share);
 std::string seconds(double time);
 std::string megabytes(double bytes);
 
-// Cells are plain text, and are escaped here. The first of a row is its head.
+// Cells are plain text, and are escaped here. The first of a row is its head; a row has as many as
+// there are heads.
 struct Table {
     std::string caption;
     std::vector<std::string> heads;
     std::vector<std::vector<std::string>> rows;
-    bool numbers = true;  // cells beyond the first stand to the right
+    bool numbers = true;  // columns with figures in them stand to the right
 };
 
 // Purpose: a table with its caption, whose heads say what they are heads of. "" without rows.

@@ -35,7 +35,7 @@ std::string solver_text(const radiosity::SolverReport& solver) {
 void add_costs(Table& table, const ReportFacts& f) {
     if (f.wall_seconds > 0.0)
         add(table, "time",
-            fmt::format("{}, {} of all cores", seconds(f.wall_seconds), seconds(f.cpu_seconds)));
+            fmt::format("{}, {} of CPU", seconds(f.wall_seconds), seconds(f.cpu_seconds)));
     if (f.peak_memory_bytes > 0.0) add(table, "most memory", megabytes(f.peak_memory_bytes));
     if (f.threads > 0) add(table, "threads", count(f.threads));
 }
@@ -112,8 +112,7 @@ void add_sums(Table& table, const Report& report) {
     };
     row("sum of what gives", gives);
     row("sum of what takes", takes);
-    row("sum of all: minus what sun, point and spot lights give, and what is missed",
-        gives + takes);
+    row("sum of all", gives + takes);
 }
 
 std::string figure_markup(const std::string& caption, const std::string& chart,
@@ -189,7 +188,7 @@ std::string passes_figures(const ReportFacts& facts, double goal) {
     Table table{"Passes: elements, estimated error and cost of each",
                 {"pass", "patches", "zones", "rays", "estimated error"},
                 {}};
-    if (costs) table.heads.insert(table.heads.end(), {"time", "of all cores", "memory"});
+    if (costs) table.heads.insert(table.heads.end(), {"time", "CPU time", "memory"});
     for (const auto& pass : passes) table.rows.push_back(pass_row(pass, costs));
     std::vector<double> spent(passes.size());
     for (std::size_t k = 0; k < passes.size(); ++k)

@@ -223,6 +223,7 @@ class Page {
   moved() {
     this.dirty = true;
     this.lastMoved = performance.now();
+    this.canvas.dataset.state = 'drawing';
     this.wake();
   }
 
