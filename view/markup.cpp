@@ -17,11 +17,10 @@ bool is_figure(const std::string& cell) {
 }
 
 const char* number_class(const Table& table, std::size_t column) {
-    const bool number =
-        column > 0 && table.numbers &&
-        std::any_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
-            return column < row.size() && is_figure(row[column]);
-        });
+    const bool number = column > 0 && table.numbers &&
+                        std::any_of(table.rows.begin(), table.rows.end(), [&](const auto& row) {
+                            return column < row.size() && is_figure(row[column]);
+                        });
     return number ? " class=\"number\"" : "";
 }
 
@@ -30,8 +29,8 @@ std::string row_markup(const std::vector<std::string>& cells,
     std::string row = "<tr>";
     for (std::size_t k = 0; k < cells.size(); ++k)
         row += k == 0 ? "<th scope=\"row\">" + escaped(cells[k]) + "</th>"
-                      : "<td" + classes[std::min(k, classes.size() - 1)] + ">" +
-                            escaped(cells[k]) + "</td>";
+                      : "<td" + classes[std::min(k, classes.size() - 1)] + ">" + escaped(cells[k]) +
+                            "</td>";
     return row + "</tr>\n";
 }
 
@@ -96,9 +95,8 @@ std::string megabytes(double bytes) {
 
 std::string table_markup(const Table& table) {
     if (table.rows.empty()) return "";
-    std::string text = "<div class=\"wide\" tabindex=\"0\" role=\"group\" aria-label=\"" +
-                       escaped(table.caption) + "\"><table><caption>" + escaped(table.caption) +
-                       "</caption>\n";
+    std::string text =
+        "<div class=\"wide\"><table><caption>" + escaped(table.caption) + "</caption>\n";
     std::vector<std::string> classes;
     text += "<thead><tr>";
     for (std::size_t k = 0; k < table.heads.size(); ++k) {

@@ -2,17 +2,37 @@
 
 #include <fmt/format.h>
 
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "mesh/input_error.h"
 #include "radiosity/report_json.h"
 
 namespace tyndall::view {
+namespace {
+
+// A solution that was saved while it was being solved has no report yet: what can be counted is,
+// and the rest is not known.
+void fill_unreported(const radiosity::Solution& solution, radiosity::Report& report) {
+    if (!report.solver.method.empty()) return;
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    const auto leaves = radiosity::elements_of_leaves(*solution.enclosure, solution.forest);
+    report.patches = leaves.patches.size();
+    report.zones = leaves.zones.size();
+    report.solved_elements = solution.coarse.elements.size();
+    report.estimated_error = unknown;
+    report.solution_error = {unknown, unknown, unknown};
+    report.closure_error = report.reciprocity_error = unknown;
+    report.energy_balance = report.direct_power_check = unknown;
+}
+
+}  // namespace
 
 ReportFacts report_facts(const radiosity::Solution& solution, const std::string& report_json) {
     ReportFacts facts;
     if (report_json.empty()) {
         facts.report = solution.report;
+        fill_unreported(solution, facts.report);
         return facts;
     }
     facts.report = radiosity::report_from_json(report_json);

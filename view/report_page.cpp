@@ -35,9 +35,8 @@ std::string again_section(const ReportFacts& facts, const ReportPageOptions& opt
     if (facts.threads > 0) table.rows.push_back({"threads", std::to_string(facts.threads)});
     if (!facts.resumed_from.empty()) table.rows.push_back({"went on from", facts.resumed_from});
     if (facts.wall_seconds > 0.0)
-        table.rows.push_back(
-            {"time", fmt::format("{}, {} of CPU", seconds(facts.wall_seconds),
-                                 seconds(facts.cpu_seconds))});
+        table.rows.push_back({"time", fmt::format("{}, {} of CPU", seconds(facts.wall_seconds),
+                                                  seconds(facts.cpu_seconds))});
     if (facts.peak_memory_bytes > 0.0)
         table.rows.push_back({"most memory", megabytes(facts.peak_memory_bytes)});
     std::string text;

@@ -28,6 +28,7 @@ std::string parts_text(const radiosity::ErrorParts& parts) {
 }
 
 std::string solver_text(const radiosity::SolverReport& solver) {
+    if (solver.method.empty()) return "not known";
     return fmt::format("{}, {} iterations, residual {}{}", solver.method, solver.iterations,
                        figure(solver.residual), solver.converged ? "" : ", not converged");
 }
@@ -298,7 +299,9 @@ std::string power_figures(const ReportFacts& facts, const std::map<std::string, 
                                    "W", ""},
                                   bars),
                         table_markup(table)) +
-           "</div>\n" + (bands > 1 ? bands_table(r, bands) : "");
+           "</div>\n<p>The sum of all is what the balance misses, less what sun, point and spot "
+           "lights bring in.</p>\n" +
+           (bands > 1 ? bands_table(r, bands) : "");
 }
 
 std::string temperature_table(const ReportFacts& facts) {
