@@ -18,6 +18,8 @@ using radiosity::Spectrum;
 using radiosity::SurfaceSide;
 using std::numbers::pi;
 
+constexpr double rounding = 1e-9;  // of a sum of shares
+
 // One number where all bands are alike, else one a band; of many bands the least and the most.
 std::string spectrum_text(const Spectrum& values) {
     constexpr std::size_t most = 6;
@@ -49,7 +51,7 @@ std::string given_by(const SurfaceSide& side, std::size_t bands) {
     if (side.settled_flux) return figure(*side.settled_flux) + " W/m² net";
     bool flux = false;
     for (std::size_t b = 0; b < side.emissivity.size(); ++b)
-        flux = flux || side.reflectance[b] > 1.0 - side.emissivity[b];
+        flux = flux || side.reflectance[b] + side.emissivity[b] > 1.0 + rounding;
     if (flux)
         return spectrum_text(mapped(bands, [&](std::size_t b) { return pi * side.emission[b]; })) +
                " W/m² net";
@@ -91,7 +93,7 @@ std::string given_by(const MediumOptics& medium, std::size_t bands) {
     if (medium.settled_heat) return figure(*medium.settled_heat) + " W/m³";
     const Spectrum albedo = albedo_of(medium, bands);
     bool heat = false;
-    for (std::size_t b = 0; b < bands; ++b) heat = heat || medium.albedo[b] > albedo[b] + 1e-9;
+    for (std::size_t b = 0; b < bands; ++b) heat = heat || medium.albedo[b] > albedo[b] + rounding;
     if (heat)
         return spectrum_text(mapped(bands,
                                     [&](std::size_t b) {
