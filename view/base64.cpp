@@ -1,5 +1,6 @@
 #include "view/base64.h"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace tyndall::view {

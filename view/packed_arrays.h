@@ -4,13 +4,9 @@
 #include <cstdint>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace tyndall::view {
-
-// Purpose: bytes in base64, as addresses of data in a page have them.
-std::string base64(std::string_view bytes);
 
 // Arrays one behind the other. Of each all first bytes of its numbers come first, then all second
 // ones, and so on, little endian: neighbours have much in common, which compresses better.

@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "view/base64.h"
 #include "view/markup.h"
 #include "view/mesh_statistics.h"
-#include "view/packed_arrays.h"
 #include "view/page_sources.h"
 #include "view/report_facts.h"
 #include "view/report_mesh.h"
