@@ -77,7 +77,7 @@ TEST_CASE("both sides of a partition, and an interface, end a medium's chords") 
     CHECK(media[0].chord == Approx(4.0 * 4.0 / (4.0 * 2.0 + 2.0 * 4.0)).epsilon(1e-9));
 }
 
-TEST_CASE("a forecast holds what is asked for") {
+TEST_CASE("a forecast holds what is asked for", "[long]") {
     const CheckWorkplace place;
     const auto coarse = place.checked().at("forecast");
     const auto fine = place.checked("--set solve.error=0.02 --set solve.rays=256").at("forecast");
@@ -94,7 +94,7 @@ TEST_CASE("a forecast holds what is asked for") {
     CHECK_THAT(place.good("check box.toml"), Contains("elements about") && Contains("of CPU"));
 }
 
-TEST_CASE("elements are foreseen within a factor of two") {
+TEST_CASE("elements are foreseen within a factor of two", "[long]") {
     const CheckWorkplace place;
     // Example scenes are within 25 % (docs/validation.md); this is one
     // that the growth was not fitted to.

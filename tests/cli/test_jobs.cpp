@@ -222,7 +222,7 @@ TEST_CASE("what cannot be done exits with 1 and one line that says where and wha
         {"run box.toml -o file/below", "file/below"},
         {"run box.toml -o new --set solve.eror=1", "error"},
         {"render nothing -o a.exr", "solution.vtkhdf"},
-        {"render box.toml -o a.exr", "not a solution file"},
+        {"render box.toml -o a.exr", "box.toml is a scene, not a solution"},
         {"render out -o a.jpg", ".exr, .pfm or .png"},
         {"render out -o no/a.exr", "no folder"},
         {"render out -o a.exr --camera back", "\"main\", \"side\""},

@@ -9,16 +9,16 @@ HALF, AISLE = 5.5, 3.0  # outer walls at x = -HALF, HALF; arcades at x = -AISLE,
 SPRING, APEX = 8.0, 12.5  # of the vault
 PIER = 0.45  # half the width of a pier
 
-vertices, faces = [], {}
+vertices, faces = {}, {}  # corner -> index; group -> polygons
 
 
 def polygon(group, corners):
     indices = []
     for corner in corners:
         corner = tuple(round(c, 6) for c in corner)
-        if not indices or vertices[indices[-1]] != corner:
-            vertices.append(corner)
-            indices.append(len(vertices) - 1)
+        index = vertices.setdefault(corner, len(vertices))
+        if not indices or indices[-1] != index:
+            indices.append(index)
     faces.setdefault(group, []).append(indices)
 
 
@@ -97,8 +97,9 @@ def write(name, title, groups):
         print("# " + title + " Made by nave.py.", file=out)
         used = sorted({i for group in groups for face in faces[group] for i in face})
         number = {i: n + 1 for n, i in enumerate(used)}
+        corners = list(vertices)
         for i in used:
-            print("v %g %g %g" % vertices[i], file=out)
+            print("v %g %g %g" % corners[i], file=out)
         for group in groups:
             print("g " + group, file=out)
             for face in faces[group]:
