@@ -287,8 +287,7 @@ std::vector<double> CoarseSolution::arrived_apart(std::size_t b,
         for (std::size_t i = 0; i < n; ++i) arrived[i] = scale * incident_lit[i * bands + b];
     }
     if (in_mirrors_.empty()) return arrived;
-    for (std::size_t i = 0; i < mirrored.size(); ++i) arrived[i] += mirrored[i];
-    for (std::size_t i = 0; i < n; ++i) sent[i] = split_emission(i, b);
+    for (std::size_t i = 0; i < n; ++i) sent[i] += split_emission(i, b);
     mirrored = in_mirrors(sent, b);
     for (std::size_t i = 0; i < n; ++i) arrived[i] += mirrored[i];
     return arrived;
