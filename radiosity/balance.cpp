@@ -18,6 +18,9 @@ namespace {
 
 using std::numbers::pi;
 
+// Of what is emitted: where mirrors take more, what they leave is not known well enough.
+constexpr double least_taken_up = 0.5;
+
 // Follows direct light from its sources to what leaves the hull.
 class Escape {
   public:
@@ -190,7 +193,7 @@ double conserve_direct_power(const Enclosure& enclosure, const Elements& e,
     double missing = 0.0, all = 0.0;
     // A sun's power is what falls on the hull, whatever gets in.
     const bool known =
-        !enclosure.open && !enclosure.has_mirrors() &&
+        !enclosure.open && !light.cut_images() &&
         std::none_of(enclosure.lights.begin(), enclosure.lights.end(),
                      [](const Light& l) { return std::holds_alternative<Sun>(l.source); });
     for (std::size_t b = 0; b < e.bands; ++b) {
@@ -200,9 +203,10 @@ double conserve_direct_power(const Enclosure& enclosure, const Elements& e,
             received += pi * e.capacity[k] * incident_direct[k];
         missing += received + escaped.direct[b] + escaped.onto_mirrors[b] - emitted;
         all += emitted;
-        if (!known || !(received > 0.0)) continue;
+        const double taken_up = emitted - escaped.onto_mirrors[b];
+        if (!known || !(received > 0.0) || !(taken_up > least_taken_up * emitted)) continue;
         for (std::size_t k = b; k < e.capacity.size(); k += e.bands)
-            incident_direct[k] *= emitted / received;
+            incident_direct[k] *= taken_up / received;
     }
     return all > 0.0 ? missing / all : 0.0;
 }

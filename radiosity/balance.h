@@ -30,9 +30,9 @@ Escaped escaped_direct(const Enclosure& enclosure, const CoarseSolution& coarse,
 //   as much as is emitted, in a closed hull: f Σ π c_i H^A_i = P_emitted, one f for all. Through an
 //   optically thick medium hardly anything of the emitted power passes, and an error of it, in the
 //   quadrature over elements of many mean free paths, would be many times that of what passes.
-//   Where the hull is open, or something is a mirror, nothing is changed: what escapes and what
-//   mirrors take, which goes through the rows (coarse_solution.h), is sampled, and not known as
-//   well.
+//   Where the hull is open nothing is changed: what escapes is sampled, and not known as well. What
+//   mirrors take of emitters goes through the rows (coarse_solution.h), and is left out of
+//   P_emitted; it is sampled, too, and nothing is changed where it is more than half.
 // Returns the check before: (received + onto mirrors + escaped − emitted) / emitted [-].
 double conserve_direct_power(const Enclosure& enclosure, const Elements& elements,
                              const DirectLight& light, const Escaped& escaped,
