@@ -68,9 +68,7 @@ RowScene::RowScene(const Discretization& d, const RowLevels* levels,
     if (d.enclosure.has_mirrors())
         for (const auto side : tags.facet_sides)
             for (const std::size_t band : bands)
-                mirrors_.push_back(
-                    side == none ? 0.0f
-                                 : static_cast<float>(d.enclosure.sides[side].mirrored(band)));
+                mirrors_.push_back(side == none ? 0.0 : d.enclosure.sides[side].mirrored(band));
     const bool varies = d.enclosure.varies();
     for (std::size_t t = 0; t < mesh_.tets.size(); ++t)
         for (const std::size_t band : bands) {
@@ -84,9 +82,8 @@ RowScene::RowScene(const Discretization& d, const RowLevels* levels,
 std::size_t RowScene::memory() const {
     return sizeof(Pair) * (zones_.pairs.capacity() + patches_.pairs.capacity()) +
            sizeof(Cluster) * (zones_above_.clusters.size() + patches_above_.clusters.size()) +
-           sizeof(void*) * varying_.size() +
-           4 * (mirrors_.size() + extinction_.size() + zones_above_.of_root.size() +
-                patches_above_.of_root.size());
+           sizeof(void*) * varying_.size() + 8 * mirrors_.size() +
+           4 * (extinction_.size() + zones_above_.of_root.size() + patches_above_.of_root.size());
 }
 
 }  // namespace tyndall::radiosity

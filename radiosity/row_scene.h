@@ -74,7 +74,7 @@ class RowScene {
     // Likewise, null where it is uniform; empty where it is so everywhere.
     std::vector<const ExtinctionBand*> varying_;
     // rho_m of facet sides, [(2 * facet + back) * bands + band]; empty: walks end at all [-].
-    std::vector<float> mirrors_;
+    std::vector<double> mirrors_;
 };
 
 // The part of a ray's way that a deposit is made on.
@@ -149,11 +149,11 @@ class RowWalk {
     }
 
     // What a facet does not mirror ends there (64).
-    void split(std::uint32_t column, const float* mirror, const Values& distances) {
+    void split(std::uint32_t column, const double* mirror, const Values& distances) {
         Values shares;
         double most = 0.0;
         for (std::size_t b = 0; b < Bands; ++b) {
-            const double kept = transmittance_[b] * static_cast<double>(mirror[b]);
+            const double kept = transmittance_[b] * mirror[b];
             shares[b] = transmittance_[b] - kept;
             transmittance_[b] = kept;
             most = std::max(most, kept);
