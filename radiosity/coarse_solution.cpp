@@ -252,8 +252,7 @@ std::vector<double> CoarseSolution::in_mirrors(std::span<const double> sent,
 }
 
 // The factor that makes what arrives from lit patches as much as they send to elements, which their
-// rows know well: few points an element miss some of it in corners. `in_mirrors`: what arrives so,
-// if any does.
+// rows know well: few points an element miss some of it in corners. `in_mirrors`: so, if any does.
 double CoarseSolution::lit_scale(const std::vector<double>& incident_direct,
                                  const std::vector<double>& incident_lit,
                                  std::span<const double> in_mirrors, std::size_t band) const {
