@@ -24,7 +24,7 @@ bool same_view(const SceneFile& a, const SceneFile& b) {
 }
 
 bool same_solve(const SceneFile& a, const SceneFile& b) {
-    return a.solve == b.solve && a.tetrahedra == b.tetrahedra;
+    return a.solve == b.solve && a.tetrahedra == b.tetrahedra && a.mirrors == b.mirrors;
 }
 
 std::vector<std::string> changes(const SceneFile& before, const SceneFile& after) {

@@ -118,6 +118,7 @@ std::string checks(const ExchangeTable& table) {
 int exchange(const PairOptions& given, const CommonFlags& flags) {
     SceneFile file = load_scene(given.scene, flags);
     if (!given.method.empty()) file.solve.exchange = given.method;
+    file.mirrors = radiosity::Mirrors::scattered;  // exchange areas are those of shapes
     const auto& method = radiosity::exchange_method(file.solve.exchange);
     ProgressLine progress(flags);
     const auto enclosure = mesh_scene(file, progress);

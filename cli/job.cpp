@@ -61,7 +61,8 @@ SceneFile load_scene(const std::string& path, const CommonFlags& flags) {
 std::shared_ptr<const radiosity::Enclosure> mesh_scene(const SceneFile& file,
                                                        ProgressLine& progress) {
     radiosity::report(progress.callback(), {"mesh", 0.0, 0, 0.0});
-    auto enclosure = radiosity::make_enclosure(file.scene, {.tetrahedra = file.tetrahedra});
+    auto enclosure = radiosity::make_enclosure(
+        file.scene, {.tetrahedra = file.tetrahedra, .mirrors = file.mirrors});
     enclosure.warnings.insert(enclosure.warnings.begin(), file.notes.begin(), file.notes.end());
     return std::make_shared<const radiosity::Enclosure>(std::move(enclosure));
 }

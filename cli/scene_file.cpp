@@ -17,6 +17,7 @@
 #include "cli/settings.h"
 #include "cli/toml_text.h"
 #include "mesh/input_error.h"
+#include "radiosity/exchange_methods.h"
 
 namespace tyndall::cli {
 namespace {
@@ -73,6 +74,31 @@ std::filesystem::path own_tetrahedra(const TableReader& root, const Settings& se
     return path;
 }
 
+// solve.mirrors, or what the exchange method can do where that is not given.
+radiosity::Mirrors mirrors_of(const TableReader& root, const Settings& settings,
+                              const radiosity::Scene& scene, std::vector<std::string>& notes) {
+    using radiosity::Mirrors;
+    const auto& method = radiosity::exchange_method(settings.solve.exchange);
+    const bool any = std::ranges::any_of(scene.materials, [](const radiosity::Material& m) {
+        return m.roughness == 0.0 &&
+               std::ranges::any_of(m.specular, [](double rho) { return rho > 0.0; });
+    });
+    const Mirrors asked = settings.mirrors.value_or(Mirrors::walked);
+    if (!any || method.mirrors || asked == Mirrors::scattered) return asked;
+    if (settings.mirrors)
+        root.table("solve", solve_keys(), "[solve]")
+            .fail("mirrors",
+                  fmt::format("mirrors of [solve] is \"walked\", but rays do not make the "
+                              "exchange areas of \"{}\". Give mirrors = \"scattered\", "
+                              "or exchange = \"walked\".",
+                              method.name));
+    notes.push_back(
+        fmt::format("exchange = \"{}\" does not follow mirrors: the solve scatters what "
+                    "they reflect evenly (solve.mirrors = \"scattered\")",
+                    method.name));
+    return Mirrors::scattered;
+}
+
 bool emits_light(const radiosity::Scene& scene) {
     const auto some = [](const radiosity::Spectrum& values) {
         return std::any_of(values.begin(), values.end(), [](double v) { return v > 0.0; });
@@ -108,6 +134,7 @@ SceneFile read_table(const toml::table& table, const std::filesystem::path& fold
     const Settings settings = read_settings(root);
     file.solve = settings.solve;
     file.tetrahedra = own_tetrahedra(root, settings, folder, file.notes);
+    file.mirrors = mirrors_of(root, settings, file.scene, file.notes);
     file.render = settings.render;
     file.tone_map = settings.tone_map;
     file.view_camera = view_camera(root, settings.camera, cameras);

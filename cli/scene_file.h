@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "cli/animation.h"
+#include "radiosity/enclosure.h"
 #include "radiosity/options.h"
 #include "radiosity/scene.h"
 #include "render/camera.h"
@@ -19,6 +20,7 @@ struct SceneFile {
     std::vector<render::Camera> cameras;
     radiosity::SolveOptions solve;
     std::filesystem::path tetrahedra;  // solve.mesh where solve.start is "mesh"; empty otherwise
+    radiosity::Mirrors mirrors = radiosity::Mirrors::walked;  // solve.mirrors, or what is possible
     std::string view_camera;  // whose picture matters: solve.camera, else the first; "" for none
     render::RenderOptions render;
     render::ToneMapOptions tone_map;

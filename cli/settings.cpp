@@ -18,6 +18,7 @@ namespace {
 
 constexpr std::array<std::string_view, 3> point_set_names{"sobol", "independent", "stratified"};
 constexpr std::array<std::string_view, 2> projection_names{"z_buffer", "walked"};
+constexpr std::array<std::string_view, 2> mirror_names{"walked", "scattered"};
 constexpr std::array<std::string_view, 2> shot_names{"rows", "on_the_fly"};
 constexpr std::array<std::string_view, 5> refinement_names{"none", "uniform", "adaptive", "view",
                                                            "aligned"};
@@ -102,6 +103,8 @@ constexpr Setting solve_settings[] = {
      [](T t, K k, Settings& s) { s.solve.gather_rays = t.count(k, 1, 1'000'000); }},
     {{"exchange", "name of a method", "\"walked\"", "how exchange areas are computed"},
      [](T t, K k, Settings& s) { const auto names = exchange_names(); s.solve.exchange = names[t.choice(k, names)]; }},
+    {{"mirrors", "\"walked\" or \"scattered\"", "\"walked\"", "light that perfect mirrors reflect: rays go on at them; or they scatter it evenly, which is all that methods other than \"walked\" can do"},
+     [](T t, K k, Settings& s) { s.mirrors = static_cast<radiosity::Mirrors>(t.choice(k, mirror_names)); }},
     {{"point_set", "\"sobol\", \"independent\" or \"stratified\"", "\"sobol\"", "how rays' starts and directions are spread in walked rows"},
      [](T t, K k, Settings& s) { s.solve.exchange_settings.point_set = static_cast<radiosity::PointSetKind>(t.choice(k, point_set_names)); }},
     {{"exchange_tolerance", "number above 0 and below 1", "1e-6", "relative error of exchange areas, of the methods that can keep one"},

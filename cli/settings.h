@@ -1,9 +1,11 @@
 // [solve] and [render]: how to compute, not what.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "cli/toml_reader.h"
+#include "radiosity/enclosure.h"
 #include "radiosity/options.h"
 #include "render/options.h"
 
@@ -11,8 +13,9 @@ namespace tyndall::cli {
 
 struct Settings {
     radiosity::SolveOptions solve;
-    std::optional<std::string> camera;  // solve.camera as given
-    std::string mesh;                   // solve.mesh as given; empty: none
+    std::optional<std::string> camera;          // solve.camera as given
+    std::string mesh;                           // solve.mesh as given; empty: none
+    std::optional<radiosity::Mirrors> mirrors;  // solve.mirrors as given
     render::RenderOptions render;
     render::ToneMapOptions tone_map;
 };

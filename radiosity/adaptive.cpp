@@ -127,7 +127,7 @@ class Loop {
         solution.report =
             solve_report(*enclosure_, coarse, incident_direct_, light_, options_,
                          {std::sqrt(squared_error_), solution.report.picture_error,
-                          solution.report.solution_error, escaped_direct_, direct_power_check_,
+                          solution.report.solution_error, *escaped_direct_, direct_power_check_,
                           view_.has_value(), stopped_, limited_, out_of_time_});
         report_temperatures(solution);
         solution.report.patches = mesh_.patch_leaf_count();
@@ -157,7 +157,8 @@ class Loop {
     // zones leave.
     void gather(const CoarseSolution& coarse, const LitPatches& lit, const Importance& importance,
                 double goal, IndirectRefiner& indirect) {
-        IndirectSources sources{leaf_light_.sources(coarse, &lit), &lit, gather_detail()};
+        IndirectSources sources{leaf_light_.sources(coarse, &lit), &lit, gather_detail(),
+                                leaf_light_.in_mirrors(coarse, true)};
         std::optional<GatherChange> change;
         if (kept_.moved) change.emplace(*kept_.moved, *enclosure_, change_sources(coarse));
         mesh_.samples().take_from(change ? &*change : nullptr);
@@ -262,7 +263,7 @@ class Loop {
     LeafLight leaf_light_;
     std::vector<double> incident_direct_;  // of the coarse elements
     std::vector<double> incident_lit_;     // the same, from lit patches
-    Spectrum escaped_direct_;              // [W]
+    std::optional<Escaped> escaped_direct_;
     double direct_power_check_ = 0.0;
     Importance::Scale scale_;
     std::vector<PassReport> passes_;
@@ -311,10 +312,10 @@ bool Loop::refine_thick_zones(const Elements& elements) {
 void Loop::solve(CoarseSolution& coarse, const LitPatches* lit) {
     const Elements& e = coarse.elements();
     incident_direct_ = leaf_light_.means_of_direct(e);
-    if (escaped_direct_.empty())
+    if (!escaped_direct_)
         escaped_direct_ = escaped_direct(*enclosure_, coarse, 16384, options_.seed);
     direct_power_check_ =
-        conserve_direct_power(*enclosure_, e, light_, escaped_direct_, incident_direct_);
+        conserve_direct_power(*enclosure_, e, light_, *escaped_direct_, incident_direct_);
     const std::size_t rays = coarse.rays();
     if (lit) {
         incident_lit_ = incident_lit(*enclosure_, mesh_.forest(), e, *lit);
@@ -329,8 +330,9 @@ void Loop::solve(CoarseSolution& coarse, const LitPatches* lit) {
 void Loop::rate(const CoarseSolution& coarse) {
     scale_.solution = coarse.mean_square();
     if (!view_) return;
-    scale_.picture = mean_radiance(
-        GatherScene(*enclosure_, mesh_.forest(), leaf_light_.sources(coarse)), *enclosure_, *view_);
+    GatherScene scene(*enclosure_, mesh_.forest(), leaf_light_.sources(coarse));
+    scene.set_in_mirrors(leaf_light_.in_mirrors(coarse, false));
+    scale_.picture = mean_radiance(scene, *enclosure_, *view_);
     if (!(scale_.picture > 0.0)) view_.reset();  // it sees nothing
 }
 

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "mesh/body.h"
 #include "radiosity/light_sources.h"
+#include "radiosity/mirrored_ray.h"
 #include "radiosity/optical_depth.h"
 #include "radiosity/point_set.h"
 
@@ -15,6 +17,9 @@ namespace tyndall::radiosity {
 namespace {
 
 using std::numbers::pi;
+
+// Of what is emitted: where mirrors take more, what they leave is not known well enough.
+constexpr double least_taken_up = 0.5;
 
 // Follows direct light from its sources to what leaves the hull.
 class Escape {
@@ -25,17 +30,20 @@ class Escape {
           coarse_(coarse),
           points_(rays),
           seed_(seed),
-          power_(enclosure.bands, 0.0) {}
+          power_{Spectrum(enclosure.bands, 0.0), Spectrum(enclosure.bands, 0.0),
+                 Spectrum(enclosure.bands, 0.0)} {}
 
     // Power that leaves, of emitting surfaces and of lights [W].
-    Spectrum follow() {
+    Escaped follow() {
         const Elements& e = coarse_.elements();
-        if (!enclosure_.open) return power_;
+        if (!enclosure_.open && !enclosure_.has_mirrors()) return power_;
         double emitting = 0.0;
         for (std::size_t i = 0; i < e.patches.size(); ++i)
             emitting += emits(i) ? e.capacity[i * e.bands] : 0.0;
+        of_emitter_ = true;
         for (std::size_t i = 0; i < e.patches.size(); ++i)
             if (emits(i)) from_patch(i, emitting);
+        of_emitter_ = false;
         for (const Light& light : enclosure_.lights)
             std::visit([this](const auto& source) { from(source); }, light.source);
         return power_;
@@ -54,19 +62,36 @@ class Escape {
     template <class Power>
     void add(const mesh::Ray& ray, mesh::WalkStart start, const Power& power) {
         std::vector<double> depth(enclosure_.bands, 0.0);
-        const auto end =
-            mesh::walk(enclosure_.mesh, ray, start, [&](TetId tet, double t_in, double t_out) {
-                add_depth(enclosure_, tet, ray, t_in, t_out, depth);
-                return true;
-            });
-        if (end.arrival != mesh::Arrival::left) return;
-        for (std::size_t b = 0; b < depth.size(); ++b) power_[b] += power(b) * std::exp(-depth[b]);
+        MirroredRay at{ray, start};
+        for (std::size_t mirrors = 0;; ++mirrors) {
+            const auto end = mesh::walk(enclosure_.mesh, at.ray, at.start,
+                                        [&](TetId tet, double t_in, double t_out) {
+                                            add_depth(enclosure_, tet, at.ray, t_in, t_out, depth);
+                                            return true;
+                                        });
+            if (end.arrival == mesh::Arrival::left) {
+                Spectrum& to = mirrors > 0 && of_emitter_ ? power_.in_mirrors : power_.direct;
+                for (std::size_t b = 0; b < depth.size(); ++b)
+                    to[b] += power(b) * std::exp(-depth[b]);
+            }
+            const SurfaceSide* mirror = mirror_struck(enclosure_, end);
+            if (!mirror || mirrors == most_mirrors) return;
+            double least = std::numeric_limits<double>::infinity();
+            for (std::size_t b = 0; b < depth.size(); ++b) {
+                depth[b] -= std::log(mirror->mirror[b]);  // as if it were a medium
+                least = std::min(least, depth[b]);
+                if (mirrors == 0 && of_emitter_)
+                    power_.onto_mirrors[b] += power(b) * std::exp(-depth[b]);
+            }
+            if (!(std::exp(-least) > little_mirrored)) return;
+            at = mirrored_ray(enclosure_.mesh, at.ray, end);
+        }
     }
 
     void from_patch(std::size_t i, double emitting) {
         const Elements& e = coarse_.elements();
         const auto& forest = coarse_.forest();
-        const double area = e.capacity[i * e.bands];
+        const double area = e.capacity[i * e.bands] / e.seen(i, 0);
         const auto count = std::max<std::size_t>(
             16, static_cast<std::size_t>(
                     std::ceil(static_cast<double>(points_.size()) * area / emitting)));
@@ -81,7 +106,7 @@ class Escape {
                 w[0] * forest.point(c[0]) + w[1] * forest.point(c[1]) + w[2] * forest.point(c[2]);
             add({x, cosine_direction(n, u[3], u[4])}, mesh::start_before(enclosure_.mesh, side, x),
                 [&](std::size_t b) {
-                    return pi * area * coarse_.split_emission(i, b) /
+                    return pi * e.capacity[i * e.bands + b] * coarse_.split_emission(i, b) /
                            static_cast<double>(std::min(count, points_.size()));
                 });
         }
@@ -151,23 +176,24 @@ class Escape {
     const CoarseSolution& coarse_;
     PointSet points_;
     std::uint64_t seed_;
-    Spectrum power_;
+    bool of_emitter_ = false;
+    Escaped power_;
 };
 
 }  // namespace
 
-Spectrum escaped_direct(const Enclosure& enclosure, const CoarseSolution& coarse, std::size_t rays,
-                        std::uint64_t seed) {
+Escaped escaped_direct(const Enclosure& enclosure, const CoarseSolution& coarse, std::size_t rays,
+                       std::uint64_t seed) {
     return Escape(enclosure, coarse, rays, seed).follow();
 }
 
 double conserve_direct_power(const Enclosure& enclosure, const Elements& e,
-                             const DirectLight& light, const Spectrum& escaped,
+                             const DirectLight& light, const Escaped& escaped,
                              std::vector<double>& incident_direct) {
     double missing = 0.0, all = 0.0;
     // A sun's power is what falls on the hull, whatever gets in.
     const bool known =
-        !enclosure.open &&
+        !enclosure.open && !light.cut_images() &&
         std::none_of(enclosure.lights.begin(), enclosure.lights.end(),
                      [](const Light& l) { return std::holds_alternative<Sun>(l.source); });
     for (std::size_t b = 0; b < e.bands; ++b) {
@@ -175,11 +201,12 @@ double conserve_direct_power(const Enclosure& enclosure, const Elements& e,
         for (const LightPower& p : light.powers()) emitted += p.power[b];
         for (std::size_t k = b; k < e.capacity.size(); k += e.bands)
             received += pi * e.capacity[k] * incident_direct[k];
-        missing += received + escaped[b] - emitted;
+        missing += received + escaped.direct[b] + escaped.onto_mirrors[b] - emitted;
         all += emitted;
-        if (!known || !(received > 0.0)) continue;
+        const double taken_up = emitted - escaped.onto_mirrors[b];
+        if (!known || !(received > 0.0) || !(taken_up > least_taken_up * emitted)) continue;
         for (std::size_t k = b; k < e.capacity.size(); k += e.bands)
-            incident_direct[k] *= emitted / received;
+            incident_direct[k] *= taken_up / received;
     }
     return all > 0.0 ? missing / all : 0.0;
 }
@@ -210,11 +237,12 @@ void add_densities(const Enclosure& enclosure, const std::map<std::string, doubl
 
 Balance balance(const Enclosure& enclosure, const CoarseSolution& coarse,
                 const std::vector<double>& incident_direct, const DirectLight& light,
-                const Spectrum& escaped) {
+                const Escaped& escaped) {
     const Elements& e = coarse.elements();
     const std::size_t bands = e.bands;
     Balance result;
-    Spectrum lights(bands, 0.0), brought(bands, 0.0), net(bands, 0.0), outside = escaped;
+    Spectrum lights(bands, 0.0), brought(bands, 0.0), net(bands, 0.0), outside = escaped.direct;
+    for (std::size_t b = 0; b < bands; ++b) outside[b] += escaped.in_mirrors[b];
     for (std::size_t k = light.powers().size() - enclosure.lights.size(); k < light.powers().size();
          ++k)
         for (std::size_t b = 0; b < bands; ++b) lights[b] += light.powers()[k].power[b];
@@ -227,7 +255,8 @@ Balance balance(const Enclosure& enclosure, const CoarseSolution& coarse,
         const std::string& name =
             e.is_patch(i) ? enclosure.sides[side_of(enclosure, coarse.forest(), e.patches[i])].name
                           : enclosure.media[medium_of(enclosure, coarse.forest(), e.zone(i))].name;
-        measure[name] += e.is_patch(i) ? e.capacity[i * bands] : volume_of(e, coarse.forest(), i);
+        measure[name] +=
+            e.is_patch(i) ? e.capacity[i * bands] / e.seen(i, 0) : volume_of(e, coarse.forest(), i);
         brought[0] += std::max(0.0, coarse.settled().heat(i));
         for (std::size_t b = 0; b < bands; ++b) {
             const std::size_t k = i * bands + b;

@@ -42,6 +42,7 @@ CoarseSolution::CoarseSolution(const Enclosure& enclosure, const Forest& forest,
     const NamedExchangeMethod& method = exchange_method(options.exchange);
     require_settings(method, options.exchange_settings);
     require_media(method, enclosure);
+    require_mirrors(method, enclosure);
     check_solver(options);
     check_solver_size(solver_named(options.solver), elements_.size());
     if (on_the_fly()) at_first_ = forest;
@@ -57,6 +58,22 @@ CoarseSolution::CoarseSolution(const Enclosure& enclosure, const Forest& forest,
         for (const std::size_t band : distinct) find_outside(band);
     } else {
         make_areas(distinct, kept);
+    }
+    if (enclosure.has_mirrors()) make_in_mirrors(distinct);
+}
+
+// What reaches patches by way of mirrors, of the same rays: e^A, and what patches reflect of direct
+// light, are seen straight in closed form, but not so.
+void CoarseSolution::make_in_mirrors(std::span<const std::size_t> bands) {
+    ExchangeOptions chosen = exchange_options(bands.front());
+    chosen.detail = on_the_fly() ? 0.0 : options_.row_detail;
+    chosen.legs = RowLegs::in_mirrors;
+    chosen.settings.smoothing = Smoothing::none;
+    for (const std::size_t band : bands) {
+        chosen.band = band;
+        in_mirrors_.push_back(all_rows(exchange_method(options_.exchange).method,
+                                       {enclosure_, forest_, elements_}, chosen));
+        rays_ += elements_.size() * options_.rays;
     }
 }
 
@@ -202,6 +219,7 @@ std::size_t CoarseSolution::memory() const {
     std::size_t bytes = elements_.capacity.size() * 3 * sizeof(double) + at_first_.memory();
     for (const auto& outside : outside_) bytes += outside.size() * sizeof(double);
     for (const auto& areas : areas_) bytes += areas.memory();
+    for (const auto& areas : in_mirrors_) bytes += areas.memory();
     return bytes;
 }
 
@@ -223,19 +241,55 @@ double CoarseSolution::split_emission(std::size_t element, std::size_t band) con
                                           : 0.0;
 }
 
+// H of every element by way of mirrors, from what patches send [W/m^2/sr].
+std::vector<double> CoarseSolution::in_mirrors(std::span<const double> sent,
+                                               std::size_t band) const {
+    std::vector<double> incident = multiply(in_mirrors_[matrix_[band]], elements_, sent);
+    for (std::size_t i = 0; i < incident.size(); ++i)
+        if (const double c = elements_.capacity[i * elements_.bands + band]; c > 0.0)
+            incident[i] /= c;
+    return incident;
+}
+
 // The factor that makes what arrives from lit patches as much as they send to elements, which their
-// rows know well: few points an element miss some of it in corners.
+// rows know well: few points an element miss some of it in corners. `in_mirrors`: so, if any does.
 double CoarseSolution::lit_scale(const std::vector<double>& incident_direct,
-                                 const std::vector<double>& incident_lit, std::size_t band) const {
+                                 const std::vector<double>& incident_lit,
+                                 std::span<const double> in_mirrors, std::size_t band) const {
     double sent = 0.0, arrived = 0.0;
     for (std::size_t i = 0; i < elements_.size(); ++i) {
         const std::size_t k = i * elements_.bands + band;
         arrived += elements_.capacity[k] * incident_lit[k];
+        if (!in_mirrors.empty()) sent -= elements_.capacity[k] * in_mirrors[i];
         if (elements_.is_patch(i))
             sent += elements_.scatter[k] * incident_direct[k] *
                     (elements_.capacity[k] - to_outside(i, band));
     }
     return arrived > 0.0 ? sent / arrived : 1.0;
+}
+
+// H of every element from what is not left to the rows: lit patches, if they are looked at apart,
+// and by way of mirrors they and emitters that direct light counts.
+std::vector<double> CoarseSolution::arrived_apart(std::size_t b,
+                                                  const std::vector<double>& incident_direct,
+                                                  const std::vector<double>& incident_lit) const {
+    const bool apart = !incident_lit.empty();
+    const std::size_t bands = elements_.bands, n = elements_.size();
+    std::vector<double> arrived(n, 0.0), sent(n, 0.0), mirrored;
+    if (!in_mirrors_.empty() && apart) {
+        for (std::size_t i = 0; i < elements_.patches.size(); ++i)
+            sent[i] = elements_.scatter[i * bands + b] * incident_direct[i * bands + b];
+        mirrored = in_mirrors(sent, b);
+    }
+    if (apart) {
+        const double scale = lit_scale(incident_direct, incident_lit, mirrored, b);
+        for (std::size_t i = 0; i < n; ++i) arrived[i] = scale * incident_lit[i * bands + b];
+    }
+    if (in_mirrors_.empty()) return arrived;
+    for (std::size_t i = 0; i < n; ++i) sent[i] += split_emission(i, b);
+    mirrored = in_mirrors(sent, b);
+    for (std::size_t i = 0; i < n; ++i) arrived[i] += mirrored[i];
+    return arrived;
 }
 
 void CoarseSolution::solve(const std::vector<double>& incident_direct,
@@ -275,14 +329,13 @@ bool CoarseSolution::add_band(std::size_t b, const std::vector<double>& incident
                               const std::vector<double>& incident_lit, Solved& solved) const {
     const bool apart = !incident_lit.empty();
     const std::size_t bands = elements_.bands, n = elements_.size();
-    std::vector<double> source(n), from_outside(n, 0.0), arrived(n, 0.0);
-    const double scale = apart ? lit_scale(incident_direct, incident_lit, b) : 0.0;
+    std::vector<double> source(n), from_outside(n, 0.0);
+    const std::vector<double> arrived = arrived_apart(b, incident_direct, incident_lit);
     for (std::size_t i = 0; i < n; ++i) {
         const double capacity = elements_.capacity[i * bands + b];
         if (capacity > 0.0)
             from_outside[i] = to_outside(i, b) / capacity * enclosure_.environment[b];
         const double sent = apart && elements_.is_patch(i) ? 0.0 : incident_direct[i * bands + b];
-        if (apart) arrived[i] = scale * incident_lit[i * bands + b];
         source[i] = emission(i, b) - split_emission(i, b) +
                     elements_.scatter[i * bands + b] * (sent + arrived[i] + from_outside[i]);
     }

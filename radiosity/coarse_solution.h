@@ -96,6 +96,7 @@ class CoarseSolution {
     ExchangeOptions exchange_options(std::size_t band) const;
     void make_areas(std::span<const std::size_t> bands, const KeptRows* kept);
     void make_rows(std::size_t band, std::span<const ElementId> rows, const RowSink& sink) const;
+    void make_in_mirrors(std::span<const std::size_t> bands);
     void find_outside(std::size_t band);
     SolverResult solve_band(std::size_t band, std::span<const double> source,
                             const NamedSolver& solver, const SolverOptions& options) const;
@@ -105,7 +106,11 @@ class CoarseSolution {
     void solve_bands(const std::vector<double>& incident_direct,
                      const std::vector<double>& incident_lit);
     double lit_scale(const std::vector<double>& incident_direct,
-                     const std::vector<double>& incident_lit, std::size_t band) const;
+                     const std::vector<double>& incident_lit, std::span<const double> in_mirrors,
+                     std::size_t band) const;
+    std::vector<double> arrived_apart(std::size_t band, const std::vector<double>& incident_direct,
+                                      const std::vector<double>& incident_lit) const;
+    std::vector<double> in_mirrors(std::span<const double> sent, std::size_t band) const;
 
     const Enclosure& enclosure_;
     const Forest& forest_;
@@ -115,7 +120,8 @@ class CoarseSolution {
     Elements elements_;
     SettledEmission settled_;
     std::vector<ExchangeAreas> areas_;
-    std::vector<std::size_t> matrix_;  // which of areas_ a band uses
+    std::vector<ExchangeAreas> in_mirrors_;  // as areas_, but RowLegs::in_mirrors; none without
+    std::vector<std::size_t> matrix_;        // which of areas_ a band uses
     // Of each of areas_: S_i,out of every element; on the fly nothing if the scene is closed [m^2].
     std::vector<std::vector<double>> outside_;
     mutable std::vector<double> closure_;  // of each of areas_, of rows made so far

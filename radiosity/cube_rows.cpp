@@ -66,7 +66,8 @@ class CubeRows {
 
     void walk(ElementId id, const CubeCentre& centre, RowAccumulator<double>& sums) const {
         double weight = 0.0;
-        const auto deposit = [&](std::uint32_t column, const std::array<double, 1>& share,
+        const auto deposit = [&](const RowLeg&, std::uint32_t column,
+                                 const std::array<double, 1>& share,
                                  const auto&) { sums.add(column, weight * share[0]); };
         RowWalk<1, decltype(deposit)> walk(*scene_, deposit);
         for (const CubeFace& face : faces_of(id))

@@ -12,6 +12,7 @@
 #include "radiosity/element_faces.h"
 #include "radiosity/light_sources.h"
 #include "radiosity/mean_transmittance.h"
+#include "radiosity/mirrored_lights.h"
 #include "radiosity/narrow_parts.h"
 #include "radiosity/occlusion.h"
 #include "radiosity/sampled_visibility.h"
@@ -83,6 +84,7 @@ struct DirectLight::Data {
     mesh::Occluders all;    // and between such a point and infinity
     std::optional<Occlusion> occlusion;
     OpticalDepth depth;
+    MirroredLights mirrored;
     Hull hull;
     double tolerance;  // [m]
 
@@ -91,6 +93,7 @@ struct DirectLight::Data {
           options(options),
           lights(shining_lights(enclosure, options.emitters, merge_tolerance)),
           depth(enclosure, merge_tolerance * diagonal(enclosure.mesh)),
+          mirrored(enclosure),
           hull{enclosure.mesh.hull_min, enclosure.mesh.hull_max},
           tolerance(on_plane * diagonal(enclosure.mesh)) {
         if (lights.empty()) return;
@@ -229,6 +232,7 @@ void DirectLight::Data::gather(const Receiver& receiver, std::span<double> incid
     for_paths(receiver, [&](Direction path, mesh::Reach reach, const Spectrum& s, double factor) {
         from_path(receiver, path, reach, s, factor, incident);
     });
+    if (!mirrored.empty()) mirrored.gather(receiver, incident);
 }
 
 void DirectLight::Data::visit(const Receiver& receiver, double widest,
@@ -265,6 +269,7 @@ void DirectLight::Data::visit(const Receiver& receiver, double widest,
     for_paths(receiver, [&](Direction path, mesh::Reach reach, const Spectrum& s, double factor) {
         tell(path, [&] { from_path(receiver, path, reach, s, factor, part); });
     });
+    if (!mirrored.empty()) mirrored.visit(receiver, visit);
 }
 
 DirectLight::DirectLight(const Enclosure& enclosure, const DirectLightOptions& options)
@@ -307,6 +312,10 @@ bool DirectLight::is_known(Point x, Direction normal, std::span<double> incident
             if (cone.passes(x, body)) return false;
     std::copy_n(known, incident.size(), incident.begin());
     return true;
+}
+
+bool DirectLight::cut_images() const {
+    return data_->mirrored.cut();
 }
 
 const std::vector<LightPower>& DirectLight::powers() const {

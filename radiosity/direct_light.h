@@ -10,7 +10,7 @@
 //   The visible part of an emitter is a set of convex polygons (mesh::Occluders); each contributes
 //   its solid angle or Lambert's projected solid angle (closed_forms.h) times the mean of τ over
 //   it, by cubature with the integrand's own weights. A sun with a diameter is a polygon at
-//   infinity.
+//   infinity. Suns, points and spots in mirrors: image sources (mirrored_lights.h).
 // Symbols: E irradiance across the beam [W/m^2], I intensity [W/sr], r distance [m].
 // Valid for: Lambertian emitters, media homogeneous in each region. Where more than
 //   `exact_occluders` overlap an emitter, visibility is sampled: deterministic in the point.
@@ -74,6 +74,9 @@ class DirectLight {
     // enclosure's own, comes between the place and a light. `known` is of the same lights, past the
     // same occluders but for the bodies of `moved`. `known` and `moved` must outlive this.
     void take_from(const PlaceMemory& known, const std::vector<mesh::Body>& moved);
+
+    // Mirrors make more images of sun, point and spot lights than are followed: light is missing.
+    bool cut_images() const;
 
     // Emitting surface sides first, then the scene's lights in order.
     const std::vector<LightPower>& powers() const;

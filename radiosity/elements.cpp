@@ -78,6 +78,8 @@ std::size_t first_of_extinction(const Enclosure& enclosure, std::size_t band) {
     while (!std::ranges::all_of(enclosure.media, [&](const MediumOptics& m) {
         return m.extinction[first] == m.extinction[band] &&
                (m.varying.empty() || m.varying[first] == m.varying[band]);
+    }) || !std::ranges::all_of(enclosure.sides, [&](const SurfaceSide& side) {
+        return side.mirrored(first) == side.mirrored(band);
     }))
         ++first;
     return first;
@@ -100,10 +102,20 @@ void append_optics(Elements& e, double measure, const Spectrum* extinction, cons
     }
 }
 
-// Adds an element whose first member, area and side are given.
+// Adds an element whose first member, area and side are given. Of a mirror: the part of it that
+// walks do not go on at (63).
 void append(Elements& e, const SurfaceSide& side, PatchId patch, double area) {
     e.patches.push_back(patch);
-    append_optics(e, area, nullptr, side.reflectance, side.emission);
+    if (side.mirror.empty())
+        return append_optics(e, area, nullptr, side.reflectance, side.emission);
+    e.mirrored.resize((e.patches.size() - 1) * e.bands, 0.0);
+    for (std::size_t b = 0; b < e.bands; ++b) {
+        const double seen = 1.0 - side.mirror[b];
+        e.mirrored.push_back(side.mirror[b]);
+        e.capacity.push_back(seen * area);
+        e.scatter.push_back(std::min(1.0, side.scattered(b) / seen));
+        e.emission.push_back(side.emission[b] / seen);
+    }
 }
 
 // `extinction`: its mean over the element.

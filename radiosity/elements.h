@@ -28,15 +28,24 @@ struct Elements {
     std::vector<std::size_t> member_starts;  // of every element, into members; empty: no clusters
     std::vector<std::uint32_t> members;      // patch or zone nodes
     std::vector<double> member_ends;  // share of the element's area or volume up to and with it [-]
-    std::vector<double> capacity;     // c: area, or 4 kappa_t volume [m^2]
-    std::vector<double> scatter;      // a: reflectance, or albedo [-]
-    std::vector<double> emission;     // e [W/m^2/sr]
+    // c: area, or 4 kappa_t volume [m^2]. Of a patch at which walks go on as at a mirror, the part
+    // 1 − rho_m of its area, over which a and e are spread (63).
+    std::vector<double> capacity;
+    std::vector<double> scatter;   // a: reflectance, or albedo [-]
+    std::vector<double> emission;  // e [W/m^2/sr]
+    // rho_m of patches up to the last mirror [-].
+    std::vector<double> mirrored;
     std::vector<std::uint32_t> of_patch;  // element of a patch node; none
     std::vector<std::uint32_t> of_zone;   // element of a zone node; none (empty space, inner nodes)
 
     std::size_t size() const { return patches.size() + zones.size(); }
     std::size_t outside() const { return size(); }
     bool is_patch(std::size_t element) const { return element < patches.size(); }
+    // The part of its area that an element is spread over: 1 − rho_m of a mirror [-].
+    double seen(std::size_t element, std::size_t band) const {
+        const std::size_t k = element * bands + band;
+        return k < mirrored.size() ? 1.0 - mirrored[k] : 1.0;
+    }
     ZoneId zone(std::size_t element) const { return zones[element - patches.size()]; }
     // The patch or zone nodes that make up an element.
     std::span<const std::uint32_t> members_of(std::size_t element) const {
@@ -96,8 +105,8 @@ Point centre_of(const Enclosure& enclosure, const Forest& forest, ZoneId zone);
 // What messages call an element: the side or medium it belongs to; "outside" for that.
 std::string name_of(const Enclosure& enclosure, const Forest& forest, const Elements& elements,
                     ElementId element);
-// The first band in which every medium has the extinction that it has in this one: exchange areas
-// are the same in both.
+// The first band in which every medium has the extinction, and every mirror the reflectance, that
+// it has in this one: exchange areas are the same in both.
 std::size_t first_of_extinction(const Enclosure& enclosure, std::size_t band);
 // Unit normal of a patch, away from the surface.
 Direction normal_of(const Forest& forest, PatchId patch);

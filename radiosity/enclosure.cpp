@@ -245,13 +245,15 @@ void warn_of_directions(const Scene& scene, Enclosure& enclosure) {
                             "last_scatter, two_pass or path_traced for the phase function itself.",
                             medium.name));
     }
-    for (const Material& material : scene.materials)
-        if (std::ranges::any_of(material.specular, [](double rho) { return rho > 0.0; }))
-            warn(
-                fmt::format("material \"{}\" has a specular part: the solve and the line-of-sight "
-                            "picture scatter it evenly, as if it were reflectance. Render by "
-                            "two_pass or path_traced for mirror images.",
-                            material.name));
+    for (const Material& material : scene.materials) {
+        if (std::ranges::none_of(material.specular, [](double rho) { return rho > 0.0; })) continue;
+        if (material.roughness == 0.0 && enclosure.mirrors == Mirrors::walked) continue;
+        warn(
+            fmt::format("material \"{}\" has a {} part: the solve and the line-of-sight picture "
+                        "scatter it evenly, as if it were reflectance. Render by two_pass or "
+                        "path_traced for mirror images.",
+                        material.name, material.roughness > 0.0 ? "glossy" : "specular"));
+    }
 }
 
 bool asks_for_temperatures(const Scene& scene) {
@@ -279,6 +281,7 @@ Enclosure make_enclosure(const Scene& given, const EnclosureOptions& options) {
     enclosure.bands = scene.bands;
     enclosure.spectral = scene.spectral;
     enclosure.thermal = asks_for_temperatures(scene);
+    enclosure.mirrors = options.mirrors;
     const bool own = !options.tetrahedra.empty();
     mesh::FittedMesh fitted =
         own ? mesh::fit_tetrahedra(mesh::read_tet_file(options.tetrahedra), complex, polygons.list,

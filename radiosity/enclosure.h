@@ -21,6 +21,16 @@ using mesh::RegionId;
 using mesh::Side;
 using mesh::TetId;
 
+// What a solve makes of the specular part of perfect mirrors.
+enum class Mirrors {
+    walked,     // walks go on at them, weighed by what they reflect (mirrored_ray.h)
+    scattered,  // they scatter it evenly, as if it were reflectance: the plain zonal method
+};
+
+// Of a mirror that reflects all light this share is scattered evenly instead, so that it is an
+// element like others [-].
+inline constexpr double least_seen = 1e-6;
+
 // One side of a surface: what exchange and net power speak of. "room.floor+" is the front of
 // room.floor.
 struct SurfaceSide {
@@ -34,15 +44,23 @@ struct SurfaceSide {
     // Net flux out of it in all bands together, where its temperature settles by that: its emission
     // in each band is found with the solution [W/m^2].
     std::optional<double> settled_flux{};
-    // The part of `reflectance` that goes about the mirror direction, which the solve scatters as
-    // if it were Lambertian; empty: none [-].
+    // The part of `reflectance` that goes about the mirror direction; the solve scatters as if it
+    // were Lambertian what of it is not in `mirror`; empty: none [-].
     Spectrum specular{};
     double roughness = 0.0;  // of that part; 0 a mirror [-]
+    // The part of `specular` with which walks go on at it, at most 1 − least_seen: what is not
+    // scattered there, and does not count among what an element receives; empty: none [-].
+    Spectrum mirror{};
 
     // Lambertian, rho_d.
     double diffuse(std::size_t band) const {
         return specular.empty() ? reflectance[band] : reflectance[band] - specular[band];
     }
+    // rho_m: what walks follow.
+    double mirrored(std::size_t band) const { return mirror.empty() ? 0.0 : mirror[band]; }
+    // What the solve takes for Lambertian: all but that.
+    double scattered(std::size_t band) const { return reflectance[band] - mirrored(band); }
+    Spectrum scattered() const;
 };
 
 // A medium as it is solved: isotropic, with the reduced coefficients of an anisotropic one.
@@ -81,8 +99,9 @@ struct Enclosure {
     Spectrum environment;  // radiance from outside [W/m^2/sr]
     bool open = false;     // some active region reaches the hull
     std::vector<std::string> warnings;
-    SpectralModel spectral{};  // what the bands are
-    bool thermal = false;      // temperatures are found
+    SpectralModel spectral{};           // what the bands are
+    bool thermal = false;               // temperatures are found
+    Mirrors mirrors = Mirrors::walked;  // how sides are bound
 
     // Whether given heat and flux are those of all bands together.
     bool settles() const { return bands > 1 && !spectral.empty(); }
@@ -103,6 +122,8 @@ struct Enclosure {
     }
     // Whether kappa_t of any medium varies in space.
     bool varies() const;
+    // Whether walks go on at any side.
+    bool has_mirrors() const;
 };
 
 struct EnclosureOptions {
@@ -111,6 +132,7 @@ struct EnclosureOptions {
     // The user's own tetrahedra (mesh/tet_file.h) in place of TetGen's; empty: none.
     std::filesystem::path tetrahedra{};
     SampleOptions extinction{};  // how functions of space are sampled
+    Mirrors mirrors = Mirrors::walked;
 };
 
 // Whether direct light may count what a side emits in closed form: a sink (a negative flux) cannot

@@ -76,7 +76,14 @@ SurfaceSide side_of_surface(const Scene& scene, const Enclosure& enclosure, std:
     for (std::size_t b = 0; b < result.specular.size(); ++b)
         result.reflectance[b] = std::min(1.0, result.reflectance[b] + result.specular[b]);
     for (const double rho : result.reflectance) result.emissivity.push_back(1.0 - rho);
-    if (emits && !material->flux.empty()) {
+    const bool given_flux = emits && !material->flux.empty();
+    const bool reflects =
+        std::ranges::any_of(material->specular, [](double rho) { return rho > 0.0; });
+    if (enclosure.mirrors == Mirrors::walked && material->roughness == 0.0 && reflects &&
+        !given_flux)
+        for (const double rho : material->specular)
+            result.mirror.push_back(std::min(rho, 1.0 - least_seen));
+    if (given_flux) {
         if (enclosure.settles())
             result.settled_flux = material->flux[0];
         else

@@ -55,13 +55,17 @@ std::vector<double> level_difference(const ElementMesh& mesh, DirectRefiner& dir
     return sum;
 }
 
+double scattered_of(const Solution& s, ZoneId zone, std::size_t band) {
+    return scatter_of(s, zone, band);
+}
+
 // Σ c δx² over the leaves by causes, and Σ c x².
 class SolutionSums {
   public:
     template <class Node>
     void add(const Solution& s, const LeafErrors& errors, Node leaf, double departure, double split,
              double capacity, std::size_t b) {
-        const double a = scatter_of(s, leaf, b), weight = capacity * a * a;
+        const double a = scattered_of(s, leaf, b), weight = capacity * a * a;
         const Point x = s.forest.centroid(leaf);
         elements_ += weight * square(departure);
         gathers_ += weight * square(errors.gathers.at(leaf, b).at(x));
@@ -85,7 +89,7 @@ double leaf_error(const Solution& s, const LeafErrors& errors, Node leaf, double
     const Point x = s.forest.centroid(leaf);
     double sum = 0.0;
     for (std::size_t b = 0; b < errors.gathers.bands; ++b)
-        sum += scatter_of(s, leaf, b) *
+        sum += scattered_of(s, leaf, b) *
                std::sqrt(square(departure) + square(errors.gathers.at(leaf, b).at(x)) +
                          square(errors.coarse.at(leaf, b).at(x)));
     return sum / static_cast<double>(errors.gathers.bands);

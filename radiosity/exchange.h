@@ -23,6 +23,12 @@ struct Discretization {
     const Elements& elements;
 };
 
+// Which part of their ways rays make rows of.
+enum class RowLegs {
+    all,
+    in_mirrors,  // what reaches patches by way of mirrors, as a part of the same rows
+};
+
 struct ExchangeOptions {
     std::size_t band = 0;    // whose extinction to use
     std::size_t rays = 256;  // a row
@@ -38,6 +44,7 @@ struct ExchangeOptions {
     ProgressCallback progress{};
     std::atomic<std::size_t>* lost_rays =
         nullptr;  // counts rays that hit the walk's step cap: bugs
+    RowLegs legs = RowLegs::all;
 };
 
 // A row: what one receiver exchanges with every element that it exchanges anything with.

@@ -26,6 +26,7 @@ constexpr NamedExchangeMethod methods[]{
      .moments = true,
      .detail = true,
      .radius = true,
+     .mirrors = true,
      .of_bands = exchange_walked_bands},
     {.name = "contour_integration",
      .method = exchange_contour_integration,
@@ -77,6 +78,20 @@ void require_media(const NamedExchangeMethod& method, const Enclosure& enclosure
         "exchange method \"{}\" needs one extinction a medium; that of \"{}\" varies in space. Set "
         "exchange to {}.",
         method.name, medium->name, fmt::join(names, " or ")));
+}
+
+void require_mirrors(const NamedExchangeMethod& method, const Enclosure& enclosure) {
+    if (method.mirrors) return;
+    const auto side = std::ranges::find_if(enclosure.sides,
+                                           [](const SurfaceSide& s) { return !s.mirror.empty(); });
+    if (side == enclosure.sides.end()) return;
+    std::vector<std::string_view> names;
+    for (const auto& other : methods)
+        if (other.mirrors) names.push_back(other.name);
+    throw mesh::InputError(fmt::format(
+        "exchange method \"{}\" does not follow light that \"{}\" mirrors. Set exchange to {}, or "
+        "mirrors to scattered.",
+        method.name, side->name, fmt::join(names, " or ")));
 }
 
 void require_settings(const NamedExchangeMethod& method, const ExchangeSettings& settings) {

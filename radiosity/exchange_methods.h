@@ -18,6 +18,7 @@ struct NamedExchangeMethod {
     bool moments = false;   //   first moments, so that elements hold linear functions
     bool detail = false;    //   deposits in coarser elements (ExchangeOptions::detail)
     bool radius = false;    //   heeds ExchangeSettings::interaction_radius
+    bool mirrors = false;   //   goes on at mirrors
     BandsExchangeMethod of_bands = nullptr;  // makes rows of several bands at once
 };
 
@@ -36,6 +37,9 @@ const NamedExchangeMethod& exchange_method(std::string_view name);
 // Errors: mesh::InputError if the extinction of a medium varies in space, and the method needs one
 // that does not; it names those that do not need it.
 void require_media(const NamedExchangeMethod& method, const Enclosure& enclosure);
+
+// Errors: mesh::InputError if walks go on at a side of the enclosure, and the method cannot.
+void require_mirrors(const NamedExchangeMethod& method, const Enclosure& enclosure);
 
 // Errors: mesh::InputError if the settings ask for what the method does not know.
 void require_settings(const NamedExchangeMethod& method, const ExchangeSettings& settings);

@@ -99,9 +99,9 @@ class MovedRows {
     static void add(const RowWalker<1>& rows, const RayStart<1>& at, double scale,
                     PlacedSums& sums) {
         using Values = RowWalker<1>::Values;
-        const auto deposit = [&](std::uint32_t column, const Values& share,
+        const auto deposit = [&](const RowLeg& leg, std::uint32_t column, const Values& share,
                                  const Values& distance) {
-            const Point place = at.ray.origin - rows.middle() + distance[0] * at.ray.direction;
+            const Point place = leg.ray->origin - rows.middle() + distance[0] * leg.ray->direction;
             sums.add(column, placed(scale * at.weight[0] * share[0] * glm::dvec4(1.0, place)));
         };
         RowWalk<1, decltype(deposit)> walk(rows.scene(), deposit);

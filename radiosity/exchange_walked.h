@@ -11,6 +11,8 @@ namespace tyndall::radiosity {
 //   the rest in the patch it ends on, or outside:
 //     S_ij = c_i/D Σ_rays T (1 − e^{−κΔs})     j a zone crossed over Δs, T the transmittance so far
 //     S_ij = c_i/D Σ_rays T                     j the patch the ray ends on              (8)–(10)
+//   At mirrors (SurfaceSide::mirror) rays go on: the patch keeps 1 − rho_m of what is left, T goes
+//   on with rho_m (64). Less than 1e-4 is not followed; a row is then scaled so that it closes.
 //   Moments, if asked for, are the same sums with the mean place of each deposit, from the
 //   centroid.
 // Valid for: any mesh, any occlusion, homogeneous base tets. Rows close by construction, entries

@@ -17,7 +17,7 @@ Fields lit_fields(const Solution& s) {
         const PatchId patch(p);
         if (!s.forest.is_leaf(patch)) continue;
         for (std::size_t b = 0; b < lit.bands; ++b) {
-            const double a = scatter_of(s, patch, b);
+            const double a = scattered_of(s, patch, b);
             const Affine& direct = s.direct.at(patch, b);
             lit.at(patch, b) = {a * direct.gradient, a * direct.constant};
         }
@@ -42,7 +42,14 @@ FinalGather::FinalGather(const Solution& solution) : FinalGather(solution, lit_f
 FinalGather::FinalGather(const Solution& solution, const Fields& lit)
     : s_(solution),
       lit_(*solution.enclosure, solution.forest, lit),
-      rest_(*solution.enclosure, solution.forest, other_fields(solution, lit), detail) {}
+      rest_(*solution.enclosure, solution.forest, other_fields(solution, lit), detail) {
+    std::vector<Affine> in_mirrors = sources_in_mirrors(solution);
+    for (std::size_t k = 0; k < in_mirrors.size(); ++k) {
+        in_mirrors[k].gradient += lit.patch[k].gradient;
+        in_mirrors[k].constant += lit.patch[k].constant;
+    }
+    rest_.set_in_mirrors(std::move(in_mirrors));
+}
 
 void FinalGather::on_surface(PatchId leaf, Point x, const PointSet& points, std::uint64_t seed,
                              std::span<double> incident) const {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "radiosity/mirrored_ray.h"
 #include "radiosity/segment.h"
 
 namespace tyndall::radiosity {
@@ -19,6 +20,7 @@ GatherScene::GatherScene(const Enclosure& enclosure, const Forest& forest, const
       zones_(packed_zones(forest)),
       stride_(sources.bands < 3 ? sources.bands : (sources.bands + 3) / 4 * 4),
       patches_(sources.patch),
+      mirrors_(enclosure.has_mirrors()),
       detail_(static_cast<float>(detail)) {
     sources_.resize(zones_.size() * stride_ / 4 + 1);
     for (std::size_t k = 0; k < sources.zone.size(); ++k)
@@ -46,9 +48,11 @@ void GatherScene::set_source(PatchId patch, std::size_t band, const Affine& sour
 // One ray's way through the packed trees.
 class RadianceWalk {
   public:
-    RadianceWalk(const GatherScene& scene, const mesh::Ray& ray, std::span<double> radiance,
-                 std::span<float> transmittance)
+    // `travelled`: how far the ray had come when it began [m].
+    RadianceWalk(const GatherScene& scene, const mesh::Ray& ray, float travelled,
+                 std::span<double> radiance, std::span<float> transmittance)
         : s_(scene),
+          travelled_(travelled),
           bands_(radiance.size()),
           ray_(ray),
           packed_(ray),
@@ -64,7 +68,7 @@ class RadianceWalk {
             s_.zones_, tet.value, packed_, t_in, t_out,
             [&](std::uint32_t zone, const PackedZone& node, float t) {
                 __builtin_prefetch(s_.sources(zone));  // a leaf's are needed with it
-                return node.longest_edge < s_.detail_ * t;
+                return node.longest_edge < s_.detail_ * (travelled_ + t);
             },
             [&](std::uint32_t zone, const PackedZone& node, float in, float out) {
                 // A linear fit may dip below zero in a leaf's corner; radiance does not. An
@@ -101,6 +105,7 @@ class RadianceWalk {
     }
 
     const GatherScene& s_;
+    float travelled_;
     std::size_t bands_;
     const mesh::Ray& ray_;
     const ExtinctionBand* varying_ = nullptr;  // of the first band, in the tet that is crossed
@@ -109,6 +114,18 @@ class RadianceWalk {
     std::span<float> transmittance_;
 };
 
+// What a leaf sends along a ray; `mirrored`: one that a mirror has turned.
+double GatherScene::sent(PatchId leaf, std::size_t band, Point x, bool mirrored) const {
+    const std::size_t bands = enclosure_.bands;
+    double sum = patches_[leaf.value * bands + band].at(x);
+    if (mirrored && !in_mirrors_.empty()) {
+        PatchId known = leaf;  // or the leaf that it was cut from
+        while (known.value * bands >= in_mirrors_.size()) known = forest_[known].parent;
+        sum += in_mirrors_[known.value * bands + band].at(x);
+    }
+    return std::max(0.0, sum);
+}
+
 void radiance_along(const GatherScene& scene, const mesh::Ray& ray, mesh::WalkStart start,
                     std::span<double> radiance) {
     const std::size_t bands = radiance.size();
@@ -116,20 +133,35 @@ void radiance_along(const GatherScene& scene, const mesh::Ray& ray, mesh::WalkSt
     std::fill(radiance.begin(), radiance.end(), 0.0);
     thread_local std::vector<float> transmittance;
     transmittance.assign(bands, 1.0f);
-    RadianceWalk walk(scene, ray, radiance, transmittance);
-    const auto end =
-        mesh::walk(enclosure.mesh, ray, start, [&](TetId tet, double t_in, double t_out) {
-            return walk.cross(tet, float(t_in), float(t_out));
-        });
-    if (end.arrival == mesh::Arrival::left) {
+    MirroredRay at{ray, start};
+    float travelled = 0.0f;
+    for (std::size_t mirrors = 0;; ++mirrors) {
+        RadianceWalk walk(scene, at.ray, travelled, radiance, transmittance);
+        const auto end =
+            mesh::walk(enclosure.mesh, at.ray, at.start, [&](TetId tet, double t_in, double t_out) {
+                return walk.cross(tet, float(t_in), float(t_out));
+            });
+        if (end.arrival == mesh::Arrival::left) {
+            for (std::size_t b = 0; b < bands; ++b)
+                radiance[b] += transmittance[b] * enclosure.environment[b];
+        } else if (end.arrival == mesh::Arrival::struck) {
+            const Point x = at.ray.origin + end.distance * at.ray.direction;
+            const PatchId leaf = scene.forest_.leaf_at(mesh::root_patch(end.facet, end.side), x);
+            for (std::size_t b = 0; b < bands; ++b)
+                radiance[b] += transmittance[b] * scene.sent(leaf, b, x, mirrors > 0);
+        }
+        const SurfaceSide* mirror = scene.mirrors_ ? mirror_struck(enclosure, end) : nullptr;
+        if (!mirror) return;
         for (std::size_t b = 0; b < bands; ++b)
-            radiance[b] += transmittance[b] * enclosure.environment[b];
-    } else if (end.arrival == mesh::Arrival::struck) {
-        const Point x = ray.origin + end.distance * ray.direction;
-        const PatchId leaf = scene.forest_.leaf_at(mesh::root_patch(end.facet, end.side), x);
-        for (std::size_t b = 0; b < bands; ++b)
-            radiance[b] +=
-                transmittance[b] * std::max(0.0, scene.patches_[leaf.value * bands + b].at(x));
+            transmittance[b] *= static_cast<float>(mirror->mirror[b]);  // (64)
+        if (!(*std::ranges::max_element(transmittance) > float(little_mirrored)) ||
+            mirrors == most_mirrors) {
+            // What is not followed is taken to be like what was found.
+            for (std::size_t b = 0; b < bands; ++b) radiance[b] /= 1.0 - transmittance[b];
+            return;
+        }
+        travelled += float(end.distance);
+        at = mirrored_ray(enclosure.mesh, at.ray, end);
     }
 }
 

@@ -41,6 +41,11 @@ class GatherScene {
     void set_source(ZoneId zone, std::size_t band, const Affine& source);
     void set_source(PatchId patch, std::size_t band, const Affine& source);
 
+    // What patches send along rays that a mirror has turned beside their sources: those that see
+    // them straight have it from elsewhere. Of the patches of the forest when it was made, and so
+    // of all below them ([node * bands + band]); empty: nothing.
+    void set_in_mirrors(std::vector<Affine> more) { in_mirrors_ = std::move(more); }
+
   private:
     friend class RadianceWalk;
     struct Source {
@@ -56,8 +61,11 @@ class GatherScene {
     // Of zones, [node * stride + band]: those of a node lie in as few cache lines as can be.
     std::vector<Sources> sources_;
     std::size_t stride_;
-    std::vector<Affine> patches_;    // of patches, [node * bands + band]
-    std::vector<float> extinction_;  // of base tets, [tet * bands + band] [1/m]
+    double sent(PatchId leaf, std::size_t band, Point x, bool mirrored) const;
+    std::vector<Affine> patches_;     // of patches, [node * bands + band]
+    std::vector<Affine> in_mirrors_;  // set_in_mirrors
+    bool mirrors_;                    // walks go on at some side
+    std::vector<float> extinction_;   // of base tets, [tet * bands + band] [1/m]
     // Of base tets, that of the first band, others follow; null where it is uniform. Empty where it
     // is so everywhere.
     std::vector<const ExtinctionBand*> varying_;
@@ -69,6 +77,7 @@ class GatherScene {
 
 // Radiance that arrives at the ray's origin from its direction, one value a band:
 //   L = Σ_segments T ∫ κ e^{−κs} J ds + T I   with J, I linear in their elements            (4)
+// and so on with rho_m T along the mirrored ray where I is that of a mirror             (64)
 // Cost: the zones crossed.
 void radiance_along(const GatherScene& scene, const mesh::Ray& ray, mesh::WalkStart start,
                     std::span<double> radiance);

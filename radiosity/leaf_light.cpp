@@ -79,12 +79,32 @@ LitPatches LeafLight::lit_patches() {
     lit.resize(forest, enclosure_.bands);
     for (const PatchId p : mesh_.patches())
         for (std::size_t b = 0; forest.is_leaf(p) && b < lit.bands; ++b) {
-            const double a = enclosure_.sides[side_of(enclosure_, forest, p)].reflectance[b];
+            const double a = enclosure_.sides[side_of(enclosure_, forest, p)].scattered(b);
             const Affine f = direct_with_mean(p, b);
             lit.at(p, b) = {a * f.gradient, a * f.constant};
         }
     if (radiance_ == Radiance::constant) flatten(forest, lit);
     return {enclosure_, forest, lit};
+}
+
+std::vector<Affine> LeafLight::in_mirrors(const CoarseSolution& coarse, bool lit) {
+    if (!enclosure_.has_mirrors()) return {};
+    const Forest& forest = mesh_.forest();
+    const std::size_t bands = enclosure_.bands;
+    std::vector<Affine> result(forest.patch_count() * bands);
+    for (const PatchId p : mesh_.patches()) {
+        if (!forest.is_leaf(p)) continue;
+        const SurfaceSide& side = enclosure_.sides[side_of(enclosure_, forest, p)];
+        const std::uint32_t element = element_above(p, coarse.elements().of_patch);
+        for (std::size_t b = 0; b < bands; ++b) {
+            const double a = lit ? side.scattered(b) : 0.0;
+            const Affine f = direct_with_mean(p, b);
+            result[p.value * bands + b] = {a * f.gradient,
+                                           a * f.constant + coarse.elements().seen(element, b) *
+                                                                coarse.split_emission(element, b)};
+        }
+    }
+    return result;
 }
 
 Fields LeafLight::sources(const CoarseSolution& coarse, const LitPatches* lit) {
@@ -97,12 +117,13 @@ Fields LeafLight::sources(const CoarseSolution& coarse, const LitPatches* lit) {
         for (std::size_t b = 0; b < e.bands; ++b) {
             const std::size_t k = element * e.bands + b;
             Affine f = direct_with_mean(node, b);
-            const double a = e.scatter[k];
+            const double seen = e.seen(element, b), a = seen * e.scatter[k];
             if (lit && std::is_same_v<decltype(node), PatchId>) f = {};
             const Affine& g = indirect[k];
-            result.at(node, b) = {a * (f.gradient + g.gradient),
-                                  coarse.emission(element, b) - coarse.split_emission(element, b) +
-                                      a * (f.constant + g.constant)};
+            result.at(node, b) = {
+                a * (f.gradient + g.gradient),
+                seen * (coarse.emission(element, b) - coarse.split_emission(element, b)) +
+                    a * (f.constant + g.constant)};
         }
     };
     for (const ZoneId z : mesh_.zones())
@@ -141,7 +162,7 @@ Solution::SettledEmission LeafLight::settled(const CoarseSolution& coarse) const
     result.patch.resize(forest.patch_count() * e.bands);
     const auto fill = [&](auto node, std::uint32_t element, std::vector<double>& values) {
         for (std::size_t b = 0; b < e.bands; ++b)
-            values[node.value * e.bands + b] = coarse.emission(element, b);
+            values[node.value * e.bands + b] = e.seen(element, b) * coarse.emission(element, b);
     };
     for (const ZoneId z : mesh_.zones())
         if (forest.is_leaf(z)) fill(z, element_above(z, e.of_zone), result.zone);

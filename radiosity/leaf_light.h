@@ -44,6 +44,11 @@ class LeafLight {
     // What patches reflect of direct light.
     LitPatches lit_patches();
 
+    // What patches send that those who see them straight have from elsewhere: e^A, and with `lit`
+    // what they reflect of direct light. Rays that mirrors have turned gather it
+    // (GatherScene::set_in_mirrors) [node * bands + band]; empty where there are no mirrors.
+    std::vector<Affine> in_mirrors(const CoarseSolution& coarse, bool lit);
+
     // r of the leaves as the coarse solution knows it: their own direct light with its mean kept,
     // the coarse element's indirect light with its gradient. With `lit`, without what
     // patches reflect of direct light: it is looked at apart. Coarsened, ready for gathers.

@@ -166,4 +166,14 @@ bool Enclosure::varies() const {
     return std::ranges::any_of(media, [](const MediumOptics& m) { return !m.varying.empty(); });
 }
 
+Spectrum SurfaceSide::scattered() const {
+    Spectrum result = reflectance;
+    for (std::size_t b = 0; b < mirror.size(); ++b) result[b] -= mirror[b];
+    return result;
+}
+
+bool Enclosure::has_mirrors() const {
+    return std::ranges::any_of(sides, [](const SurfaceSide& side) { return !side.mirror.empty(); });
+}
+
 }  // namespace tyndall::radiosity

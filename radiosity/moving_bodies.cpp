@@ -109,6 +109,12 @@ bool emits(const Material& material) {
     return any(material.emission) || any(material.power) || !material.flux.empty();
 }
 
+bool mirrors(const Material& material) {
+    return material.roughness == 0.0 &&
+           std::any_of(material.specular.begin(), material.specular.end(),
+                       [](double rho) { return rho > 0.0; });
+}
+
 // A body that holds a place from which or for which light is computed is no solid.
 bool holds_a_place(const Scene& scene, const mesh::BaseMesh& mesh) {
     const auto inside = [&](Point x) { return mesh::body_around(mesh, x) != nullptr; };
@@ -151,11 +157,15 @@ Scene without_surfaces(const Scene& scene, std::span<const std::size_t> surfaces
 std::string why_no_bodies(const Scene& scene, std::span<const std::size_t> surfaces,
                           const Enclosure& still) {
     if (still.thermal || still.settles()) return "is in a scene whose temperatures are found";
+    if (still.has_mirrors()) return "is in a scene with mirrors";
     for (const std::size_t s : surfaces) {
         const Surface& surface = scene.surfaces[s];
         if (!surface.material) return "has no material: what it bounds may be another medium";
-        for (const Side side : {Side::front, Side::back})
-            if (emits(*material_of_side(scene, s, side).material)) return "emits";
+        for (const Side side : {Side::front, Side::back}) {
+            const Material& material = *material_of_side(scene, s, side).material;
+            if (emits(material)) return "emits";
+            if (still.mirrors == Mirrors::walked && mirrors(material)) return "is a mirror";
+        }
         for (const auto& polygon : surface.polygons) {
             if (!convex(polygon.corners)) return "has a polygon that is not convex";
             for (const Point& p : polygon.corners)

@@ -21,7 +21,8 @@ Scene without_surfaces(const Scene& scene, std::span<const std::size_t> surfaces
 // Why these surfaces cannot be bodies in the still scene's mesh, as the end of a sentence that
 // begins with "it"; empty: they can. They can where all of them are opaque, emit nothing, have no
 // flux given, are made of convex polygons, lie within the hull of what stands still, and hold no
-// camera, light or point of a medium; where no temperatures are found.
+// camera, light or point of a medium; where no temperatures are found, and walks go on at no
+// mirror.
 std::string why_no_bodies(const Scene& scene, std::span<const std::size_t> surfaces,
                           const Enclosure& still);
 

@@ -4,6 +4,7 @@
 
 #include "mesh/entry.h"
 #include "radiosity/error_estimate.h"
+#include "radiosity/mirrored_ray.h"
 #include "radiosity/segment.h"
 
 namespace tyndall::radiosity {
@@ -31,13 +32,23 @@ class ErrorWalk {
     ErrorWalk(const Solution& solution, const LeafErrors& errors, const mesh::Ray& ray,
               mesh::TetId start, std::size_t band)
         : s_(solution), errors_(errors), e_(*solution.enclosure), ray_(ray), band_(band) {
-        const auto end = mesh::walk_zones(
-            e_.mesh, s_.forest, ray, {start}, mesh::at_leaves,
-            [&](ZoneId zone, double t_in, double t_out) { return cross(zone, t_in, t_out); });
-        if (end.arrival == mesh::Arrival::struck)
-            strike(end);
-        else if (end.arrival == mesh::Arrival::left)
-            radiance_ += transmittance_ * e_.environment[band];
+        mesh::WalkStart at{start};
+        for (std::size_t mirrors = 0;; ++mirrors) {
+            const auto end = mesh::walk_zones(
+                e_.mesh, s_.forest, ray_, at, mesh::at_leaves,
+                [&](ZoneId zone, double t_in, double t_out) { return cross(zone, t_in, t_out); });
+            if (end.arrival == mesh::Arrival::struck)
+                strike(end);
+            else if (end.arrival == mesh::Arrival::left)
+                radiance_ += transmittance_ * e_.environment[band];
+            const SurfaceSide* mirror = mirror_struck(e_, end);
+            if (!mirror || mirrors == most_mirrors) return;
+            transmittance_ *= mirror->mirror[band];
+            if (!(transmittance_ > little_mirrored)) return;
+            const MirroredRay next = mirrored_ray(e_.mesh, ray_, end);
+            ray_ = next.ray;
+            at = next.start;
+        }
     }
 
     void add_to(Sums& sums) const {
@@ -79,7 +90,7 @@ class ErrorWalk {
         const Point x = ray_.origin + end.distance * ray_.direction;
         const PatchId leaf = s_.forest.leaf_at(mesh::root_patch(end.facet, end.side), x);
         if (side_of(e_, s_.forest, leaf) == none) return;
-        const double a = transmittance_ * scatter_of(s_, leaf, band_);
+        const double a = transmittance_ * scattered_of(s_, leaf, band_);
         const auto at = [&](const Fields& fields) { return fields.at(leaf, band_).at(x); };
         radiance_ += transmittance_ * emission_of(s_, leaf, band_) +
                      a * std::max(0.0, at(s_.direct) + at(s_.indirect));
@@ -93,7 +104,7 @@ class ErrorWalk {
     const Solution& s_;
     const LeafErrors& errors_;
     const Enclosure& e_;
-    const mesh::Ray& ray_;
+    mesh::Ray ray_;
     std::size_t band_;
     double transmittance_ = 1.0, radiance_ = 0.0, squares_ = 0.0, gathers_ = 0.0, coarse_ = 0.0;
 };

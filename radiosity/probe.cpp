@@ -31,7 +31,9 @@ Probe::Probe(const Solution& solution, const ProbeOptions& options)
       light_(*solution.enclosure,
              {.emitters = solution.direct_light == DirectLightMode::closed_form}),
       points_(options.rays),
-      step_(relative_step * diagonal(solution.enclosure->mesh)) {}
+      step_(relative_step * diagonal(solution.enclosure->mesh)) {
+    scene_.set_in_mirrors(sources_in_mirrors(solution));
+}
 
 // Off the faces of the tet that holds x, if it lies on one: a point in a wall's plane is on neither
 // side of it. A point inside stays where it is.

@@ -109,9 +109,10 @@ class DirectRefiner {
 
 // What indirect light is gathered from.
 struct IndirectSources {
-    Fields fields;                    // r of the leaves, coarsened, without what `lit` holds
-    const LitPatches* lit = nullptr;  // what patches reflect of direct light
-    double detail = 0.0;              // see GatherScene [-]
+    Fields fields;                     // r of the leaves, coarsened, without what `lit` holds
+    const LitPatches* lit = nullptr;   // what patches reflect of direct light
+    double detail = 0.0;               // see GatherScene [-]
+    std::vector<Affine> in_mirrors{};  // GatherScene::set_in_mirrors
 };
 
 // Indirect light: gathered at the corners of the coarse elements and in the middle of their edges;

@@ -169,7 +169,7 @@ double DirectRefiner::collect(const Importance& importance, const RefineLimits& 
         if (forest.is_leaf(p)) {
             const auto& side = enclosure_.sides[side_of(enclosure_, forest, p)];
             add(p, patch_error_[p.value], cuts_ ? cuts_->error(p) : 0.0,
-                mean_over_bands(side.reflectance), seen_patch_share * importance.of(p));
+                mean_over_bands(side.scattered()), seen_patch_share * importance.of(p));
         }
     return sum;
 }

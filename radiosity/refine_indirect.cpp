@@ -112,7 +112,7 @@ double IndirectRefiner::scatter(ZoneId zone) const {
 
 double IndirectRefiner::scatter(PatchId patch) const {
     return mean_over_bands(
-        enclosure_.sides[side_of(enclosure_, mesh_.forest(), patch)].reflectance);
+        enclosure_.sides[side_of(enclosure_, mesh_.forest(), patch)].scattered());
 }
 
 template <class Node>
@@ -127,7 +127,8 @@ RefineResult IndirectRefiner::refine(std::vector<Node> frontier, IndirectSources
     for (std::size_t round = 0; !frontier.empty(); ++round) {
         std::vector<SampleId> ids;
         collect(frontier, ids);
-        const GatherScene scene(enclosure_, forest, sources.fields, sources.detail);
+        GatherScene scene(enclosure_, forest, sources.fields, sources.detail);
+        scene.set_in_mirrors(sources.in_mirrors);
         result.rays +=
             mesh_.samples().gather_at(ids, scene, sources.lit, on_surfaces_, in_zones_, seed_);
         settled.resize(std::max(forest.zone_count(), forest.patch_count()));

@@ -65,6 +65,10 @@ RowScene::RowScene(const Discretization& d, const RowLevels* levels,
         zones_above_ = pack(levels->clusters.zones, levels->of_zone_cluster);
         patches_above_ = pack(levels->clusters.patches, levels->of_patch_cluster);
     }
+    if (d.enclosure.has_mirrors())
+        for (const auto side : tags.facet_sides)
+            for (const std::size_t band : bands)
+                mirrors_.push_back(side == none ? 0.0 : d.enclosure.sides[side].mirrored(band));
     const bool varies = d.enclosure.varies();
     for (std::size_t t = 0; t < mesh_.tets.size(); ++t)
         for (const std::size_t band : bands) {
@@ -78,7 +82,7 @@ RowScene::RowScene(const Discretization& d, const RowLevels* levels,
 std::size_t RowScene::memory() const {
     return sizeof(Pair) * (zones_.pairs.capacity() + patches_.pairs.capacity()) +
            sizeof(Cluster) * (zones_above_.clusters.size() + patches_above_.clusters.size()) +
-           sizeof(void*) * varying_.size() +
+           sizeof(void*) * varying_.size() + 8 * mirrors_.size() +
            4 * (extinction_.size() + zones_above_.of_root.size() + patches_above_.of_root.size());
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "radiosity/exchange.h"
+#include "radiosity/mirrored_ray.h"
 #include "radiosity/packed_zones.h"
 
 namespace tyndall::radiosity {
@@ -72,11 +73,21 @@ class RowScene {
     std::vector<float> extinction_;
     // Likewise, null where it is uniform; empty where it is so everywhere.
     std::vector<const ExtinctionBand*> varying_;
+    // rho_m of facet sides, [(2 * facet + back) * bands + band]; empty: walks end at all [-].
+    std::vector<double> mirrors_;
 };
 
-// Follows rays, in all bands at once: their way is the same. deposit(column, shares, distances): of
-// what a ray carries, 1 in all in each band, its `share` ends in the column, at its `distance` [m]
-// from the ray's start in the mean.
+// The part of a ray's way that a deposit is made on.
+struct RowLeg {
+    const mesh::Ray* ray = nullptr;  // begins where the way did, or at the last mirror
+    bool in_mirror = false;          // comes by way of a mirror
+    bool on_patch = false;           // the deposit is made where it ends, on a patch
+};
+
+// Follows rays, in all bands at once: their way is the same. deposit(leg, column, shares,
+// distances): of what a ray carries, 1 in all in each band, its `share` ends in the column, at its
+// `distance` [m] from the start of the leg in the mean. At mirrors the way goes on (64); what is
+// left when that is too little is not deposited.
 template <std::size_t Bands, class Deposit>
 class RowWalk {
   public:
@@ -88,33 +99,69 @@ class RowWalk {
     // Returns how the walk ended, for the count of lost rays. What is left at the ray's length, if
     // it has one, is not deposited.
     mesh::Arrival follow(const mesh::Ray& ray, mesh::WalkStart start) {
-        const Point from = ray.origin - s_.centre_;
-        ray_ = &ray;
-        packed_ = PackedRay(from, ray.direction);
         transmittance_.fill(1.0);
+        travelled_ = 0.0f;
+        leg_ = {};
+        mesh::WalkEnd end = follow_leg(ray, start);
+        MirroredRay next{ray, start};
+        for (std::size_t mirrors = 0; more_ && mirrors < most_mirrors; ++mirrors) {
+            travelled_ += static_cast<float>(end.distance);
+            next = mirrored_ray(s_.mesh_, next.ray, end);
+            leg_.in_mirror = true;
+            end = follow_leg(next.ray, next.start);
+        }
+        return end.arrival;
+    }
+
+  private:
+    // The way to the next thing that is struck; more_: it is a mirror.
+    mesh::WalkEnd follow_leg(const mesh::Ray& ray, mesh::WalkStart start) {
+        const Point from = ray.origin - s_.centre_;
+        leg_.ray = &ray;
+        leg_.on_patch = false;
+        packed_ = PackedRay(from, ray.direction);
         column_ = none;
         depth_.fill(0.0f);
         near_ = far_ = 0.0f;
+        more_ = false;
         const auto end =
             mesh::walk(s_.mesh_, ray, start, [&](TetId tet, double t_in, double t_out) {
                 cross(tet.value, static_cast<float>(t_in), static_cast<float>(t_out));
                 return true;
             });
         flush();
-        if (end.arrival == mesh::Arrival::ended) return end.arrival;
+        if (end.arrival == mesh::Arrival::ended) return end;
         std::uint32_t column = s_.outside_;
+        const std::uint32_t facet_side = 2 * end.facet.value + (end.side == Side::back);
         if (end.arrival == mesh::Arrival::struck)
-            column = arrival(2 * end.facet.value + (end.side == Side::back),
-                             from + end.distance * ray.direction, static_cast<float>(end.distance));
+            column = arrival(facet_side, from + end.distance * ray.direction,
+                             travelled_ + static_cast<float>(end.distance));
         // The dark side of a body, from within rounding of its rim.
         if (column == none) column = s_.outside_;
+        leg_.on_patch = column != s_.outside_;
         Values distances;
         distances.fill(end.distance);
-        deposit_(column, transmittance_, distances);
-        return end.arrival;
+        if (!s_.mirrors_.empty() && end.arrival == mesh::Arrival::struck)
+            split(column, &s_.mirrors_[facet_side * Bands], distances);
+        else
+            deposit_(leg_, column, transmittance_, distances);
+        return end;
     }
 
-  private:
+    // What a facet does not mirror ends there (64).
+    void split(std::uint32_t column, const double* mirror, const Values& distances) {
+        Values shares;
+        double most = 0.0;
+        for (std::size_t b = 0; b < Bands; ++b) {
+            const double kept = transmittance_[b] * mirror[b];
+            shares[b] = transmittance_[b] - kept;
+            transmittance_[b] = kept;
+            most = std::max(most, kept);
+        }
+        deposit_(leg_, column, shares, distances);
+        more_ = most > little_mirrored;
+    }
+
     // The column of the largest cluster above a root that may stand for it; none.
     static std::uint32_t cluster_for(const RowScene::Above& above, std::uint32_t root,
                                      float reach) {
@@ -133,12 +180,13 @@ class RowWalk {
         if (std::all_of(extinction, extinction + Bands, [](float k) { return k == 0.0f; })) return;
         const float detail = s_.detail_;
         varying_ = s_.varying_.empty() ? nullptr : &s_.varying_[tet * Bands];
-        if (const auto column = cluster_for(s_.zones_above_, tet, detail * t_in); column != none)
+        if (const auto column = cluster_for(s_.zones_above_, tet, detail * (travelled_ + t_in));
+            column != none)
             return pass(column, extinction, t_in, t_out);
         descend_packed(
             s_.zones_, tet, packed_, t_in, t_out,
             [&](std::uint32_t, const RowScene::Node& node, float t) {
-                return node.size <= detail * t;
+                return node.size <= detail * (travelled_ + t);
             },
             [&](std::uint32_t, const RowScene::Node& node, float in, float out) {
                 pass(node.column, extinction, in, out);
@@ -161,7 +209,7 @@ class RowWalk {
     void pass_varying(std::uint32_t column, double t_in, double t_out) {
         flush();
         column_ = none;
-        SegmentOfBands segment(ray_->origin, ray_->direction, t_in, t_out);
+        SegmentOfBands segment(leg_.ray->origin, leg_.ray->direction, t_in, t_out);
         Values shares{}, distances;
         bool any = false;
         for (std::size_t b = 0; b < Bands; ++b) {
@@ -174,7 +222,7 @@ class RowWalk {
             distances[b] = t_in + (t_out - t_in) * (w.back / lost);
             transmittance_[b] -= transmittance_[b] * lost;
         }
-        if (any) deposit_(column, shares, distances);
+        if (any) deposit_(leg_, column, shares, distances);
     }
 
     void flush() {
@@ -187,7 +235,7 @@ class RowWalk {
             distances[b] = near_ + (far_ - near_) * mean_place(depth, lost);
             transmittance_[b] -= transmittance_[b] * lost;
         }
-        deposit_(column_, shares, distances);
+        deposit_(leg_, column_, shares, distances);
         depth_.fill(0.0f);
     }
 
@@ -223,13 +271,15 @@ class RowWalk {
 
     const RowScene& s_;
     Deposit deposit_;
-    const mesh::Ray* ray_ = nullptr;
+    RowLeg leg_;
     const ExtinctionBand* const* varying_ = nullptr;  // of every band, in the tet that is crossed
     PackedRay packed_{};                              // from the middle of the hull
     Values transmittance_{};
     std::uint32_t column_ = none;
     std::array<float, Bands> depth_{};  // optical, in column_ so far
     float near_ = 0.0f, far_ = 0.0f;  // distances where column_ was entered, and reached so far [m]
+    float travelled_ = 0.0f;          // to the last mirror [m]
+    bool more_ = false;               // a mirror was struck, and enough is left
 };
 
 }  // namespace tyndall::radiosity

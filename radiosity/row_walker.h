@@ -53,7 +53,8 @@ class RowWalker {
           scene_(d, options.levels, bands,
                  options.detail *
                      std::sqrt(4.0 * std::numbers::pi / static_cast<double>(points.size()))),
-          middle_(0.5 * (d.enclosure.mesh.hull_min + d.enclosure.mesh.hull_max)) {
+          middle_(0.5 * (d.enclosure.mesh.hull_min + d.enclosure.mesh.hull_max)),
+          spread_(options.settings.interaction_radius > 0.0 || d.enclosure.has_mirrors()) {
         if (options.radiance == Radiance::constant) return;
         for (const PatchId patch : d.elements.patches)
             centres_.push_back(centre_of(d.enclosure, d.forest, patch));
@@ -65,15 +66,14 @@ class RowWalker {
     void row(ElementId id, Shares<Bands>& sums, std::span<FinishedRows> rows) const {
         InBands<double, Bands> shares(0.0);
         Values kept{};
-        const Values count =
-            follow(id.value, [&](const RayStart<Bands>& start, std::uint32_t column,
-                                 const Values& share, const Values&) {
-                for (std::size_t b = 0; b < Bands; ++b) {
-                    shares.of[b] = start.weight[b] * share[b];
-                    kept[b] += shares.of[b];
-                }
-                sums.add(column, shares);
-            });
+        const Values count = follow(id.value, [&](const Deposited& at, std::uint32_t column,
+                                                  const Values& share, const Values&) {
+            for (std::size_t b = 0; b < Bands; ++b) {
+                shares.of[b] = at.start.weight[b] * share[b];
+                kept[b] += shares.of[b];
+            }
+            if (counts(at.leg)) sums.add(column, shares);
+        });
         const Values scale = scales_of(id.value, kept, count, rows);
         sums.take([&](std::uint32_t column, const InBands<double, Bands>& sum) {
             for (std::size_t b = 0; b < Bands; ++b) {
@@ -88,17 +88,17 @@ class RowWalker {
     void row(ElementId id, PlacedShares<Bands>& sums, std::span<FinishedRows> rows) const {
         InBands<glm::dvec4, Bands> shares(0.0);
         Values kept{};
-        const Values count =
-            follow(id.value, [&](const RayStart<Bands>& start, std::uint32_t column,
-                                 const Values& share, const Values& at) {
-                for (std::size_t b = 0; b < Bands; ++b) {
-                    const Point place = start.ray.origin - middle_ + at[b] * start.ray.direction;
-                    const double counts = start.weight[b] * share[b];
-                    shares.of[b] = counts * glm::dvec4(1.0, place);
-                    kept[b] += counts;
-                }
-                sums.add(column, shares);
-            });
+        const Values count = follow(id.value, [&](const Deposited& at, std::uint32_t column,
+                                                  const Values& share, const Values& distance) {
+            for (std::size_t b = 0; b < Bands; ++b) {
+                const Point place =
+                    at.leg.ray->origin - middle_ + distance[b] * at.leg.ray->direction;
+                const double counts = at.start.weight[b] * share[b];
+                shares.of[b] = counts * glm::dvec4(1.0, place);
+                kept[b] += counts;
+            }
+            if (counts(at.leg)) sums.add(column, shares);
+        });
         const Values scale = scales_of(id.value, kept, count, rows);
         sums.take([&](std::uint32_t column, const InBands<glm::dvec4, Bands>& sums_of) {
             for (std::size_t b = 0; b < Bands; ++b) {
@@ -139,16 +139,26 @@ class RowWalker {
   private:
     using Numbers = std::array<double, point_set_dimensions>;
 
-    // deposit(start, column, shares, distances) for all the rays of an element. Returns the sum of
-    // their weights.
+    // By which ray a deposit is made, and on which part of its way.
+    struct Deposited {
+        const RayStart<Bands>& start;
+        const RowLeg& leg;
+    };
+    // Whether it is of the legs that are asked for.
+    bool counts(const RowLeg& leg) const {
+        return options_.legs == RowLegs::all || (leg.in_mirror && leg.on_patch);
+    }
+
+    // deposit(deposited, column, shares, distances) for all the rays of an element. Returns the sum
+    // of their weights.
     template <class Deposit>
     Values follow(std::size_t i, Deposit&& deposit) const {
         const std::uint64_t seed = hash_seed(options_.seed, i);
         RayStart<Bands> start;
         Values count{};
-        const auto pass_on = [&](std::uint32_t column, const Values& shares,
+        const auto pass_on = [&](const RowLeg& leg, std::uint32_t column, const Values& shares,
                                  const Values& distances) {
-            deposit(start, column, shares, distances);
+            deposit({start, leg}, column, shares, distances);
         };
         RowWalk<Bands, decltype(pass_on)> walk(scene_, pass_on);
         const bool bodies = !d_.enclosure.mesh.bodies.empty();
@@ -179,14 +189,15 @@ class RowWalker {
     double radius() const { return options_.settings.interaction_radius; }
 
     // What a share counts [m^2]; `kept`: shares of all rays that were deposited, `count` their
-    // weights. What gets beyond the radius counts as if it were spread like the rest. Where nothing
+    // weights. What gets beyond the radius, and what little is left after many mirrors, counts as
+    // if it were spread like the rest. Where nothing
     // is within the radius, or nothing where rays start, what is beyond is taken to shine as the
     // element itself.
     Values scales_of(std::size_t i, const Values& kept, const Values& count,
                      std::span<FinishedRows> rows) const {
         Values scale;
         for (std::size_t b = 0; b < Bands; ++b) {
-            const double all = radius() > 0.0 ? kept[b] : count[b];
+            const double all = spread_ ? kept[b] : count[b];
             scale[b] = all > 0.0 ? capacity(i, b) / all : 0.0;
             if (scale[b] == 0.0 && capacity(i, b) > 0.0) add_itself(i, capacity(i, b), rows[b]);
         }
@@ -247,6 +258,7 @@ class RowWalker {
     const PointSet& points_;
     RowScene scene_;
     Point middle_;                // of the hull
+    bool spread_;                 // rays may leave something undeposited
     std::vector<Point> centres_;  // of columns, for moments
 };
 

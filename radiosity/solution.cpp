@@ -44,6 +44,11 @@ double scatter_of(const Solution& solution, PatchId patch, std::size_t band) {
     return surface ? surface->reflectance[band] : 0.0;
 }
 
+double scattered_of(const Solution& solution, PatchId patch, std::size_t band) {
+    const auto* surface = side(solution, patch);
+    return surface ? surface->scattered(band) : 0.0;
+}
+
 double split_emission_of(const Solution& s, PatchId patch, std::size_t band) {
     const SurfaceSide* surface = side(s, patch);
     const bool split =
@@ -67,10 +72,20 @@ Fields reflected_sources(const Solution& s) {
         for (std::size_t b = 0; b < sources.bands; ++b)
             sources.at(patch, b) =
                 combine(emission_of(s, patch, b) - split_emission_of(s, patch, b),
-                        scatter_of(s, patch, b), s.direct.at(patch, b), s.indirect.at(patch, b));
+                        scattered_of(s, patch, b), s.direct.at(patch, b), s.indirect.at(patch, b));
     }
     coarsen(s.forest, sources);
     return sources;
+}
+
+std::vector<Affine> sources_in_mirrors(const Solution& s) {
+    if (!s.enclosure->has_mirrors()) return {};
+    const std::size_t bands = s.enclosure->bands;
+    std::vector<Affine> result(s.forest.patch_count() * bands);
+    for (std::size_t p = 0; p < s.forest.patch_count(); ++p)
+        for (std::size_t b = 0; b < bands; ++b)
+            result[p * bands + b].constant = split_emission_of(s, PatchId(p), b);
+    return result;
 }
 
 }  // namespace tyndall::radiosity

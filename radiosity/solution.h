@@ -114,12 +114,17 @@ double emission_of(const Solution& solution, ZoneId zone, std::size_t band);
 double scatter_of(const Solution& solution, ZoneId zone, std::size_t band);
 double emission_of(const Solution& solution, PatchId patch, std::size_t band);
 double scatter_of(const Solution& solution, PatchId patch, std::size_t band);
+// Of a, what walks that go on at mirrors find scattered evenly: all where they do not.
+double scattered_of(const Solution& solution, PatchId patch, std::size_t band);
 
 // e^A: emission of a patch that direct light counts in closed form; 0 else.
 double split_emission_of(const Solution& solution, PatchId patch, std::size_t band);
 
 // r of every leaf for gathers, coarsened: all it sends out but for the emission of surfaces that
-// direct light counts in closed form.
+// direct light counts in closed form, and for what mirrors reflect.
 Fields reflected_sources(const Solution& solution);
+// That emission, of every leaf on patches, for rays that mirrors have turned
+// (GatherScene::set_in_mirrors) [node * bands + band]; empty where there are no mirrors.
+std::vector<Affine> sources_in_mirrors(const Solution& solution);
 
 }  // namespace tyndall::radiosity

@@ -105,7 +105,8 @@ Json side_json(const SurfaceSide& side) {
             {"emissivity", side.emissivity},
             {"settled_flux", optional_json(side.settled_flux)},
             {"specular", side.specular},
-            {"roughness", side.roughness}};
+            {"roughness", side.roughness},
+            {"mirror", side.mirror}};
 }
 
 // Files of earlier versions have no emissivity, nor what comes after it.
@@ -119,7 +120,8 @@ SurfaceSide side_from(const Json& json) {
             json.value("emissivity", Spectrum()),
             optional_of(json, "settled_flux"),
             json.value("specular", Spectrum()),
-            json.value("roughness", 0.0)};
+            json.value("roughness", 0.0),
+            json.value("mirror", Spectrum())};
 }
 
 Json medium_json(const MediumOptics& medium) {
@@ -192,7 +194,8 @@ bool spectra_fit(const Enclosure& e) {
     for (const auto& side : e.sides)
         good = good && fits(side.reflectance) && fits(side.emission) &&
                (side.emissivity.empty() || fits(side.emissivity)) &&
-               (side.specular.empty() || fits(side.specular));
+               (side.specular.empty() || fits(side.specular)) &&
+               (side.mirror.empty() || fits(side.mirror));
     for (const auto& m : e.media)
         good = good && fits(m.extinction) && fits(m.albedo) && fits(m.emission) &&
                fits(m.absorption) && (m.scattering.empty() || fits(m.scattering));

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "radiosity/balance.h"
+#include "radiosity/mirrored_lights.h"
 #include "radiosity/smoothing.h"
 
 namespace tyndall::radiosity {
@@ -115,6 +115,12 @@ Report solve_report(const Enclosure& enclosure, const CoarseSolution& coarse,
             "(solve.max_elements), or set solve.refinement to \"view\".",
             100.0 * std::abs(report.direct_power_check),
             report.direct_power_check < 0.0 ? "is missing" : "is too much"));
+    if (light.cut_images())
+        report.warnings.push_back(fmt::format(
+            "sun, point and spot lights have more than {} images in the scene's mirrors: the light "
+            "of the others is missing. Set solve.mirrors to \"scattered\", or give the lights a "
+            "surface.",
+            MirroredLights::most_images));
     if (ending.out_of_time)
         report.warnings.push_back(
             fmt::format("refinement ended at max_time = {} s; the estimated error is {:.3g}.",

@@ -1,6 +1,7 @@
 // What a solve says about itself, beyond the passes: residuals, balances, warnings.
 #pragma once
 
+#include "radiosity/balance.h"
 #include "radiosity/coarse_solution.h"
 #include "radiosity/direct_light.h"
 
@@ -11,7 +12,7 @@ struct Ending {
     double refined_to = 0.0;  // the error that refinement saw at its end [-]
     std::optional<ErrorParts> picture_error;
     ErrorParts solution_error;
-    Spectrum escaped_direct;          // power of direct light that leaves the hull [W]
+    Escaped escaped_direct;           // power of direct light that leaves the hull
     double direct_power_check = 0.0;  // before H^A was made to balance [-]
     bool for_picture = false;         // it refined for the picture, not for the solution
     bool stopped = false;             // by the caller

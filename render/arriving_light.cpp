@@ -76,6 +76,7 @@ ArrivingLight::ArrivingLight(const radiosity::Solution& solution,
     std::vector<float> radiance(places_.places.size() * pixels_.size() * bands_);
     for (std::size_t sweep = 0; sweep <= options.sweeps; ++sweep) {
         radiosity::GatherScene scene(sweep == 0 ? e_ : whole_, s_.forest, reflected, cube_detail);
+        scene.set_in_mirrors(radiosity::sources_in_mirrors(s_));
         if (sweep > 1) reflect(scene);
         const auto tell = [&](double done) {
             const double sweeps = double(options.sweeps + 1);
@@ -276,7 +277,7 @@ void ArrivingLight::reflect(radiosity::GatherScene& scene) const {
         const Point x = s_.forest.centroid(patch);
         beyond(mesh::FacetId(root / 2), root % 2 ? mesh::Side::back : mesh::Side::front, x, more);
         for (std::size_t b = 0; b < bands_; ++b) {
-            const double a = radiosity::scatter_of(s_, patch, b), kept = sources_->kept(patch, b);
+            const double a = radiosity::scattered_of(s_, patch, b), kept = sources_->kept(patch, b);
             const auto &direct = s_.direct.at(patch, b), &indirect = s_.indirect.at(patch, b);
             scene.set_source(
                 patch, b,

@@ -109,6 +109,8 @@ class LightPaths::Walk {
 
     // On the surface that a gathering ray meets: what the solution says it sends out.
     void strike_end(Point x);
+    // Turns a gathering ray at a mirror that the solution leaves to walks; false: it is none.
+    bool mirror_end(Point x);
 
     Into reflected_into(Lobe lobe) const;
 
@@ -160,6 +162,7 @@ class LightPaths::Walk {
     // Beyond the Lambertian surface that the picture shows, where the way through media from the
     // next one is followed; on the ray that left it.
     bool gathering_ = false, straight_ = false;
+    bool mirrored_ = false;  // a gathering ray has been turned by a mirror
     std::size_t rays_ = 0, bounces_ = 0, scatterings_ = 0;
 };
 

@@ -18,7 +18,7 @@ void LightPaths::Walk::meet_emitter() {
 
 bool LightPaths::Walk::strike() {
     const Point x = ray_.at(sight_.distance) + p_.hits_.offset() * sight_.normal;
-    if (gathering_) return strike_end(x), false;
+    if (gathering_) return strike_end(x), mirror_end(x);
     meet_emitter();
     return reflect(sight_.surface, x);
 }
@@ -26,10 +26,19 @@ bool LightPaths::Walk::strike() {
 void LightPaths::Walk::strike_end(Point x) {
     const auto& optics = p_.e_.sides[sight_.surface];
     const bool direct = radiosity::shines(optics) && p_.ending_->emitters_are_direct;
-    if (!straight_ || !direct) meet_emitter();
+    if (!straight_ || !direct || mirrored_) meet_emitter();
     p_.ending_->incident({x, sight_.facet, sight_.side, sight_.normal}, value_);
     for (std::size_t b = 0; b < bands_; ++b)
-        add(into_.indirect, b, weight_[b] * optics.reflectance[b] * value_[b]);
+        add(into_.indirect, b, weight_[b] * optics.scattered(b) * value_[b]);
+}
+
+bool LightPaths::Walk::mirror_end(Point x) {
+    if (p_.e_.sides[sight_.surface].mirror.empty()) return false;
+    const Bounce bounce = p_.scattering_.sample(sight_.surface, Lobe::specular, sight_.normal,
+                                                -direction_, random_, weight_);
+    mirrored_ = true;
+    move(x, bounce.direction, sight_.medium);
+    return roulette();
 }
 
 LightPaths::Walk::Into LightPaths::Walk::reflected_into(Lobe lobe) const {

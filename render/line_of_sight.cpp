@@ -10,6 +10,7 @@
 
 #include "mesh/entry.h"
 #include "radiosity/final_gather.h"
+#include "radiosity/mirrored_ray.h"
 #include "render/eye.h"
 #include "render/seen_solution.h"
 #include "render/sight_zones.h"
@@ -30,7 +31,7 @@ class LineOfSight {
           eye_(camera.eye),
           eye_tet_(tet_of_eye(e_, camera)),
           zones_(solution),
-          seen_(solution, options.direct_tolerance),
+          seen_(solution, options.direct_tolerance, AtMirrors::go_on),
           scattered_(solution, seen_.light(), options.scattering_tolerance) {
         if (options.final_gather > 0) gather_.emplace(solution);
     }
@@ -44,25 +45,58 @@ class LineOfSight {
         if (!entry.tet.valid()) return seen_.leave(seen);
         if (e_.solid(entry.tet)) return;
         ray.origin += entry.distance * ray.direction;
-        const SightRay sight(ray);
-        const auto end =
-            mesh::walk(e_.mesh, ray, {entry.tet}, [&](mesh::TetId tet, double t_in, double t_out) {
-                if (e_.solid(tet) || e_.medium_of(tet) == none) return true;
-                return zones_.cross(sight, tet, t_in, t_out, seen,
-                                    anew > 0.0 ? &scattered_ : nullptr, anew);
-            });
-        if (!gather_) return seen_.arrive(ray, end, entry.distance, seen);
-        seen_.arrive(ray, end, entry.distance, seen,
-                     [&](mesh::PatchId leaf, Point x, std::span<double> incident) {
-                         gather_->on_surface(leaf, x, points, seed, incident);
-                     });
+        SeenSolution::Indirect gathered;
+        if (gather_)
+            gathered = [&](mesh::PatchId leaf, Point x, std::span<double> incident) {
+                gather_->on_surface(leaf, x, points, seed, incident);
+            };
+        const auto follow = [&](const mesh::Ray& along, mesh::WalkStart start, double before) {
+            const SightRay sight(along);
+            const auto end =
+                mesh::walk(e_.mesh, along, start, [&](mesh::TetId tet, double t_in, double t_out) {
+                    if (e_.solid(tet) || e_.medium_of(tet) == none) return true;
+                    return zones_.cross(sight, tet, t_in, t_out, seen,
+                                        anew > 0.0 ? &scattered_ : nullptr, anew);
+                });
+            seen_.arrive(along, end, before, seen, gathered);
+            return end;
+        };
+        const auto end = follow(ray, {entry.tet}, entry.distance);
+        if (radiosity::mirror_struck(e_, end)) mirror(ray, end, follow, seen);
     }
 
     std::size_t bands() const { return e_.bands; }
+    // Of the layers; with one for what mirrors show where there are any.
+    std::size_t parts() const { return e_.has_mirrors() ? part_count : solved_parts; }
     // Radiance below which differences do not count more [W/m^2/sr].
     double dark() const { return darkest_share * seen_.typical_radiance(); }
 
   private:
+    // Follows a ray on from mirror to mirror (64); what it gains is their reflection.
+    template <class Follow>
+    void mirror(mesh::Ray ray, mesh::WalkEnd end, const Follow& follow, Seen& seen) const {
+        const Seen first = seen;
+        double before = seen.depth;
+        for (std::size_t mirrors = 0; mirrors < radiosity::most_mirrors; ++mirrors) {
+            const auto* side = radiosity::mirror_struck(e_, end);
+            if (!side) break;
+            for (std::size_t b = 0; b < e_.bands; ++b) seen.transmittance[b] *= side->mirror[b];
+            if (!(*std::ranges::max_element(seen.transmittance) > radiosity::little_mirrored))
+                break;
+            const radiosity::MirroredRay next = radiosity::mirrored_ray(e_.mesh, ray, end);
+            ray = next.ray;
+            end = follow(ray, next.start, before);
+            before += end.distance;
+        }
+        for (std::size_t k = 0; k < solved_parts * e_.bands; ++k) {
+            seen.radiance[specular_reflection * e_.bands + k % e_.bands] +=
+                seen.radiance[k] - first.radiance[k];
+            seen.radiance[k] = first.radiance[k];
+        }
+        seen.transmittance = first.transmittance;
+        seen.depth = first.depth;
+    }
+
     const radiosity::Enclosure& e_;
     Point eye_;
     mesh::TetId eye_tet_;
@@ -74,8 +108,7 @@ class LineOfSight {
 
 double radiance(const Seen& seen, std::size_t band, std::size_t bands) {
     double sum = 0.0;
-    for (std::size_t part = 0; part < solved_parts; ++part)
-        sum += seen.radiance[part * bands + band];
+    for (std::size_t part = 0; part < part_count; ++part) sum += seen.radiance[part * bands + band];
     return sum;
 }
 
@@ -129,7 +162,7 @@ class Painter {
           points_(std::max<std::size_t>(options.samples, 1)),
           gathered_((options.final_gather + points_.size() - 1) / points_.size()),
           gathered_once_(options.final_gather),
-          picture_(camera, line.bands()) {}
+          picture_(camera, line.bands(), line.parts()) {}
 
     Image paint() {
         // The middle of a pixel says nothing of what a lens blurs.

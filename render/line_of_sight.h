@@ -11,8 +11,8 @@ namespace tyndall::render {
 
 // Purpose: a picture of a solution, with the parts that make it up as layers:
 //   beauty = emission + surfaces_direct + surfaces_indirect + single_scattering +
-//   multiple_scattering and transmittance (of the medium in front of what is seen), depth [m]
-//   (infinity: nothing hit).
+//   multiple_scattering (+ specular_reflection, all that mirrors show at which walks go on (64))
+//   and transmittance (of the medium in front of what is seen), depth [m] (infinity: nothing hit).
 // Equation: I = Σ_segments T ∫ κ e^{−κs} J ds + T I_surface, J and I linear in each leaf. (4)
 // Anti-aliased: `samples` rays a pixel, a scrambled (0,2)-net, box filter of one pixel; one through
 //   its middle where radiance is linear from there to the neighbours' (`contrast`).

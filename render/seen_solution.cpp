@@ -34,13 +34,15 @@ double mean_of_surfaces(const radiosity::Solution& s) {
 
 }  // namespace
 
-SeenSolution::SeenSolution(const radiosity::Solution& solution, double direct_tolerance)
+SeenSolution::SeenSolution(const radiosity::Solution& solution, double direct_tolerance,
+                           AtMirrors at_mirrors)
     : s_(solution),
       e_(*solution.enclosure),
       bands_(e_.bands),
       light_(e_, {.emitters = s_.direct_light == radiosity::DirectLightMode::closed_form}),
       typical_(mean_of_surfaces(solution)),
-      threshold_(direct_tolerance * typical_) {}
+      threshold_(direct_tolerance * typical_),
+      at_mirrors_(at_mirrors) {}
 
 bool SeenSolution::cross(const mesh::Ray& ray, ZoneId zone, double t_in, double t_out,
                          Seen& seen) const {
@@ -94,7 +96,9 @@ void SeenSolution::strike(PatchId leaf, Point x, mesh::TetId before, Seen& seen,
             other[b] = std::max(0.0, s_.indirect.at(leaf, b).at(x));
     }
     for (std::size_t b = 0; b < bands_; ++b) {
-        const double t = seen.transmittance[b], rho = optics.reflectance[b];
+        const double t = seen.transmittance[b];
+        const double rho =
+            at_mirrors_ == AtMirrors::go_on ? optics.scattered(b) : optics.reflectance[b];
         seen.radiance[emission * bands_ + b] += t * radiosity::emission_of(s_, leaf, b);
         seen.radiance[surfaces_direct * bands_ + b] += t * rho * direct[b];
         seen.radiance[surfaces_indirect * bands_ + b] += t * rho * other[b];
@@ -115,7 +119,8 @@ void SeenSolution::leave(Seen& seen) const {
         seen.radiance[emission * bands_ + b] += seen.transmittance[b] * e_.environment[b];
 }
 
-PictureSums::PictureSums(const Camera& camera, std::size_t bands) : bands_(bands) {
+PictureSums::PictureSums(const Camera& camera, std::size_t bands, std::size_t parts)
+    : bands_(bands), parts_(parts) {
     image_.width = camera.width;
     image_.height = camera.height;
     const auto add = [&](const char* name, std::size_t channels) {
@@ -123,20 +128,20 @@ PictureSums::PictureSums(const Camera& camera, std::size_t bands) : bands_(bands
             {name, channels, std::vector<float>(image_.width * image_.height * channels)});
     };
     add("beauty", bands);
-    for (std::size_t p = 0; p < solved_parts; ++p) add(part_names[p], bands);
+    for (std::size_t p = 0; p < parts_; ++p) add(part_names[p], bands);
     add("transmittance", bands);
     add("depth", 1);
 }
 
 void PictureSums::begin(Sums& sums) const {
-    sums.values.assign((solved_parts + 1) * bands_, 0.0);
+    sums.values.assign((parts_ + 1) * bands_, 0.0);
     sums.depth = std::numeric_limits<double>::infinity();
 }
 
 void PictureSums::add(const Seen& seen, Sums& sums) const {
-    for (std::size_t n = 0; n < solved_parts * bands_; ++n) sums.values[n] += seen.radiance[n];
+    for (std::size_t n = 0; n < parts_ * bands_; ++n) sums.values[n] += seen.radiance[n];
     for (std::size_t b = 0; b < bands_; ++b)
-        sums.values[solved_parts * bands_ + b] += seen.transmittance[b];
+        sums.values[parts_ * bands_ + b] += seen.transmittance[b];
     sums.depth = std::min(sums.depth, seen.depth);
 }
 
@@ -144,15 +149,15 @@ void PictureSums::end(const Sums& sums, std::size_t pixel, std::size_t rays) {
     const double share = 1.0 / static_cast<double>(rays);
     for (std::size_t b = 0; b < bands_; ++b) {
         double beauty = 0.0;
-        for (std::size_t part = 0; part <= solved_parts; ++part) {
+        for (std::size_t part = 0; part <= parts_; ++part) {
             // What some rays put right for all may be a little more than they have.
             const double value = std::max(0.0, share * sums.values[part * bands_ + b]);
             image_.layers[1 + part].values[pixel * bands_ + b] = static_cast<float>(value);
-            if (part < solved_parts) beauty += value;
+            if (part < parts_) beauty += value;
         }
         image_.layers[0].values[pixel * bands_ + b] = static_cast<float>(beauty);
     }
-    image_.layers[2 + solved_parts].values[pixel] = static_cast<float>(sums.depth);
+    image_.layers[2 + parts_].values[pixel] = static_cast<float>(sums.depth);
 }
 
 }  // namespace tyndall::render

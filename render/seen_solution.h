@@ -17,10 +17,17 @@ namespace tyndall::render {
 // Parts of what a solution holds: nothing is specular.
 inline constexpr std::size_t solved_parts = specular_reflection;
 
+// What becomes of the light that a mirror reflects which walks go on at.
+enum class AtMirrors {
+    scatter,  // it is shown as if it were scattered evenly
+    go_on,    // it is left to whoever follows the ray on
+};
+
 class SeenSolution {
   public:
     // `direct_tolerance`: RenderOptions has it [-].
-    SeenSolution(const radiosity::Solution& solution, double direct_tolerance);
+    SeenSolution(const radiosity::Solution& solution, double direct_tolerance,
+                 AtMirrors at_mirrors = AtMirrors::scatter);
 
     // Adds what a ray gains between two distances in a leaf of a medium, in closed form for J
     // linear there (4), and takes the leaf's transmittance. False where so little is left that the
@@ -56,16 +63,17 @@ class SeenSolution {
     radiosity::DirectLight light_;
     double typical_;
     double threshold_;  // error of a patch's direct light above which it is computed anew
+    AtMirrors at_mirrors_;
 };
 
-// A picture of the layers that line_of_sight.h names, pixel by pixel.
+// A picture of the layers that line_of_sight.h names, pixel by pixel; of as many parts as given.
 class PictureSums {
   public:
     struct Sums {  // of the rays of a pixel
         std::vector<double> values;
         double depth;
     };
-    PictureSums(const Camera& camera, std::size_t bands);
+    PictureSums(const Camera& camera, std::size_t bands, std::size_t parts = solved_parts);
 
     void begin(Sums& sums) const;
     void add(const Seen& seen, Sums& sums) const;
@@ -75,7 +83,7 @@ class PictureSums {
     Image take() { return std::move(image_); }
 
   private:
-    std::size_t bands_;
+    std::size_t bands_, parts_;
     Image image_;
 };
 

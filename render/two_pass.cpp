@@ -37,7 +37,9 @@ class SolvedLight {
           eye_(mesh::locate(e_.mesh, camera.eye)),
           light_(e_, {.emitters = closed_form()}),
           whole_light_(whole_, {.emitters = closed_form()}),
-          gathered_(e_, s_.forest, radiosity::reflected_sources(s_), gather_detail) {}
+          gathered_(e_, s_.forest, radiosity::reflected_sources(s_), gather_detail) {
+        gathered_.set_in_mirrors(radiosity::sources_in_mirrors(s_));
+    }
 
     const radiosity::Solution& solution() const { return s_; }
     const radiosity::Enclosure& enclosure() const { return e_; }

@@ -134,6 +134,34 @@ TEST_CASE("Two passes: mirrors and gloss", "[picture][long]") {
     CHECK(test::over(paths, "specular_reflection").mean > 0.01 * mean);
 }
 
+TEST_CASE("Line of sight: a mirror shows the room, and lights it", "[picture][long]") {
+    auto scene = bright_room();
+    scene.materials.push_back(test::material(0.1));
+    scene.materials.back().specular = {0.8};
+    scene.surfaces[test::surface_named(scene, "room.x1")].material = 2;
+    const auto camera = small_camera();
+    const auto solution = solved(scene, camera, 0.03);
+    const auto paths = render::path_traced(*solution.enclosure, camera, {.samples = 512});
+    const auto line = render::line_of_sight(solution, camera, {.samples = 16});
+    const double mean = mean_of(paths);
+    for (const char* layer : {"beauty", "specular_reflection", "surfaces_indirect"}) {
+        const auto by_line = departure(paths, line, layer, mean);
+        INFO(layer << ": " << by_line.found << ", noise " << by_line.noise);
+        // As without mirrors: the solution's goal is 3 % of a pixel, in blocks less.
+        CHECK(by_line.found < std::hypot(2.0 * by_line.noise, 0.02));
+        CHECK(by_line.noise < 0.01);
+    }
+    CHECK(test::over(line, "specular_reflection").mean > 0.1 * mean);
+    // The plain zonal method has no such layer, and another room.
+    const auto plain = radiosity::solve_adaptively(
+        std::make_shared<const radiosity::Enclosure>(
+            radiosity::make_enclosure(scene, {.mirrors = radiosity::Mirrors::scattered})),
+        {.error = 0.03}, camera.view());
+    const auto even = render::line_of_sight(plain, camera, {.samples = 16});
+    CHECK(even.find("specular_reflection") == nullptr);
+    CHECK(departure(paths, even, "beauty", mean).found > 0.05);
+}
+
 // A mesh that knows next to nothing of the slit's shaft.
 TEST_CASE("Last scatter: shafts are right on a mesh that is too coarse for them", "[picture]") {
     const auto scene = test::slit_room();

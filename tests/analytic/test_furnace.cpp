@@ -112,14 +112,23 @@ std::vector<double> with_lamps_split_off(const Furnace& furnace, std::size_t ray
     std::vector<double> x(e.emission.size());
     for (std::size_t b = 0; b < e.bands; ++b) {
         const ExchangeAreas& areas = rows[b];
-        std::vector<double> source(e.size());
+        std::vector<double> source(e.size()), sent(e.size(), 0.0), in_mirrors(e.size(), 0.0);
+        if (whole.has_mirrors()) {
+            for (std::size_t i = 0; i < e.patches.size(); ++i)
+                sent[i] = lamp_emission[i * e.bands + b];
+            in_mirrors = multiply(
+                all_rows(exchange_walked, {whole, mesh.forest(), e},
+                         {.band = b, .rays = rays, .progress = {}, .legs = RowLegs::in_mirrors}),
+                e, sent);
+        }
         for (std::size_t i = 0; i < e.size(); ++i) {
             const std::size_t k = i * e.bands + b;
             const std::size_t last = areas.starts[i + 1] - 1;
             const double outside =
                 areas.columns[last] == e.outside() ? areas.values[last] / e.capacity[k] : 0.0;
             const double split = e.is_patch(i) ? lamp_emission[k] : 0.0;
-            source[i] = e.emission[k] - split + e.scatter[k] * (received[k] + outside);
+            const double mirrored = in_mirrors[i] > 0.0 ? in_mirrors[i] / e.capacity[k] : 0.0;
+            source[i] = e.emission[k] - split + e.scatter[k] * (received[k] + outside + mirrored);
         }
         const auto result = solve_gmres({e, areas, b, source}, {1e-9, 200});
         for (std::size_t i = 0; i < e.size(); ++i) {

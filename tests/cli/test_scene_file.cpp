@@ -322,6 +322,22 @@ TEST_CASE("A broken --set is refused, with itself as the place") {
     }
 }
 
+TEST_CASE("Mirrors are walked where the exchange method can") {
+    using radiosity::Mirrors;
+    const std::string glass = "format = 1\n" + material + "specular = 0.3\n" + grey_room;
+    CHECK(read(glass).mirrors == Mirrors::walked);
+    CHECK(read(glass, {"solve.mirrors=scattered"}).mirrors == Mirrors::scattered);
+    const auto cubes = read(glass, {"solve.exchange=full_cube"});
+    CHECK(cubes.mirrors == Mirrors::scattered);
+    REQUIRE(cubes.notes.size() == read(glass).notes.size() + 1);
+    CHECK(holds(cubes.notes.back() + cubes.notes.front(), "\"full_cube\" does not follow mirrors"));
+    // Nobody needs to be told of mirrors that are not there, or that are rough.
+    const std::string plain = "format = 1\n" + material + grey_room;
+    CHECK(read(plain, {"solve.exchange=full_cube"}).notes == read(plain).notes);
+    CHECK(read(glass, {"solve.exchange=full_cube", "material.plaster.roughness=0.2"}).notes ==
+          read(glass).notes);
+}
+
 TEST_CASE("Indicators are chosen by name, from the file or by --set") {
     const std::string text = "format = 1\n" + material + grey_room;
     CHECK(read(text).solve.indicators ==
