@@ -95,7 +95,7 @@ TEST_CASE("Mirrors: a furnace is a furnace", "[furnace]") {
     CHECK(most < 1e-5);
 }
 
-TEST_CASE("Mirrors: a furnace whose walls are split off", "[furnace]") {
+TEST_CASE("Mirrors: a furnace whose walls are split off", "[furnace][long]") {
     SolveOptions options = quick;
     options.direct_light = DirectLightMode::closed_form;
     const auto enclosure = mirror_furnace();

@@ -1,4 +1,5 @@
 // Rows of exchange areas whose rays go on at mirrors.
+#include <algorithm>
 #include <cmath>
 
 #include "radiosity/adaptive.h"
@@ -56,7 +57,7 @@ TEST_CASE("Rows with mirrors close, and become reciprocal with the rays", "[exch
     INFO("reciprocity errors " << first << " and " << last);
     // At the least as independent rays would, 16 times as many: by four, and some less for luck.
     CHECK(last < 0.35 * first);
-    for (const float value : many.values) REQUIRE(value >= 0.0f);
+    CHECK(*std::ranges::min_element(many.values) >= 0.0f);
 }
 
 TEST_CASE("A mirror's capacity is what it does not mirror, and its element is spread over it",
@@ -100,14 +101,18 @@ TEST_CASE("The part of rows that comes by way of mirrors is a part of them", "[e
     const auto part = rows.made(128, RowLegs::in_mirrors, radiance);
     REQUIRE(part.rows() == all.rows());
     double sum = 0.0, whole = 0.0;
+    bool of_patches = true, a_part = true;
     for (std::size_t i = 0; i < part.rows(); ++i)
         for (std::size_t k = part.starts[i]; k < part.starts[i + 1]; ++k) {
-            REQUIRE(rows.elements.is_patch(part.columns[k]));
+            of_patches = of_patches && rows.elements.is_patch(part.columns[k]);
             const double in_row = entry(all, i, part.columns[k]);
-            REQUIRE(double(part.values[k]) <= in_row * (1.0 + 1e-5) + 1e-9);
+            // To the rounding of what is kept, as above.
+            a_part = a_part && double(part.values[k]) <= in_row * (1.0 + 1e-5) + 1e-9;
             sum += part.values[k];
             whole += in_row;
         }
+    CHECK(of_patches);
+    CHECK(a_part);
     CHECK(sum > 0.05 * whole);
     CHECK(sum < 0.6 * whole);
 }
