@@ -18,7 +18,7 @@ struct CellColumn {
     std::size_t components = 1;
     std::variant<std::vector<double>, std::vector<float>, std::vector<std::int32_t>,
                  std::vector<std::int64_t>, std::vector<std::uint8_t>>
-        values;
+        values;  // `components` of the first cell, of the second, and so on
 };
 
 struct ElementGrid {
@@ -31,7 +31,9 @@ struct ElementGrid {
     std::vector<CellColumn> cells;           // by the names and units of docs/guide/04-outputs.md
     std::vector<std::string> names;  // that the column `name_id` points to: sides, then media
 
+    // Triangles and tetrahedra together; three and four points of each.
     std::size_t cell_count() const { return types.size(); }
+    // Points of all cells, those of neighbours twice.
     std::size_t point_count() const { return points.size() / 3; }
 };
 

@@ -36,7 +36,7 @@ void note_errors(const radiosity::Report& r, double goal, std::vector<std::strin
                         "(solve.max_elements) or rays (solve.gather_rays), or be content with it.",
                         percent(r.estimated_error), percent(goal)));
     if (r.stopped && !warned(r, "stopped") && !said)
-        notes.push_back(
+        notes.emplace_back(
             "The solve was stopped before its end: the solution is valid, but coarser than it "
             "should be. Go on with it: tyndall run SCENE -o DIR --resume.");
     if (std::abs(r.energy_balance) > unbalanced)
