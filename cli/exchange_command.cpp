@@ -152,7 +152,7 @@ void add_exchange_command(Shell& shell) {
         "exchange", "Exchange areas between sides, media and outside",
         R"(  tyndall exchange room.toml
   tyndall exchange room.toml --from ceiling_lamp --to room.floor --to haze
-  tyndall exchange room.toml --method hemicube --set solve.resolution=256 -o areas.csv)",
+  tyndall exchange room.toml --method hemicube --from room.floor --to room.ceiling)",
         [options](const CommonFlags& flags) { return exchange(*options, flags); });
     add_seed_flag(command, shell.flags());
     add_set_flag(command, shell.flags());

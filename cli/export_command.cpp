@@ -169,7 +169,7 @@ void add_export_command(Shell& shell) {
   tyndall export out/ -o room.ply --set render.exposure=1
   tyndall export room.toml -o room.msh
   tyndall export room.toml -o room.xml --samples 1024
-  tyndall export out/ -o room.pbrt --camera side)",
+  tyndall export out/ -o room.pbrt --camera main)",
         [options](const CommonFlags& flags) { return export_files(*options, flags); });
     add_set_flag(command, shell.flags());
     command
