@@ -7,6 +7,8 @@
 #include "radiosity/exchange_walked.h"
 #include "render/line_of_sight.h"
 #include "support/catch.h"
+#include "support/mirror_scenes.h"
+#include "support/path_scenes.h"
 #include "support/rooms.h"
 
 using namespace tyndall;
@@ -22,19 +24,14 @@ struct Everything {
     render::Image picture;
 };
 
-Everything at_threads(std::size_t threads) {
+Everything at_threads(std::size_t threads, const Scene& scene, render::Camera camera) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-    const auto enclosure = std::make_shared<const Enclosure>(make_enclosure(test::slit_room()));
+    const auto enclosure = std::make_shared<const Enclosure>(make_enclosure(scene));
     Everything e;
     const Forest forest(enclosure->mesh);
     const auto elements = elements_of_leaves(*enclosure, forest);
     e.areas =
         all_rows(exchange_walked, {*enclosure, forest, elements}, {.rays = 256, .progress = {}});
-    render::Camera camera;
-    camera.eye = {2.8, 1.9, 1.0};
-    camera.target = {0.5, 0.8, 1.0};
-    camera.fov_y = 1.0;
-    camera.width = 80, camera.height = 60;
     e.solution = solve_adaptively(enclosure, small, camera.view());
     e.picture = render::line_of_sight(e.solution, camera, {.samples = 4});
     return e;
@@ -43,6 +40,26 @@ Everything at_threads(std::size_t threads) {
 bool same_bits(const std::vector<Affine>& a, const std::vector<Affine>& b) {
     return a.size() == b.size() &&
            (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(Affine)) == 0);
+}
+
+void check_same(const Scene& scene, mesh::Point eye, mesh::Point target) {
+    const auto camera = test::camera_at(eye, target, 1.2, 80, 60);
+    const Everything one = at_threads(1, scene, camera), two = at_threads(2, scene, camera);
+    CHECK(one.areas.starts == two.areas.starts);
+    CHECK(one.areas.columns == two.areas.columns);
+    CHECK(one.areas.values == two.areas.values);
+    CHECK(one.solution.forest.zone_count() == two.solution.forest.zone_count());
+    CHECK(one.solution.forest.patch_count() == two.solution.forest.patch_count());
+    CHECK(one.solution.coarse.radiance == two.solution.coarse.radiance);
+    CHECK(same_bits(one.solution.direct.zone, two.solution.direct.zone));
+    CHECK(same_bits(one.solution.direct.patch, two.solution.direct.patch));
+    CHECK(same_bits(one.solution.indirect.zone, two.solution.indirect.zone));
+    CHECK(same_bits(one.solution.indirect.patch, two.solution.indirect.patch));
+    REQUIRE(one.picture.layers.size() == two.picture.layers.size());
+    for (std::size_t l = 0; l < one.picture.layers.size(); ++l) {
+        INFO(one.picture.layers[l].name);
+        CHECK(one.picture.layers[l].values == two.picture.layers[l].values);
+    }
 }
 
 }  // namespace
@@ -67,20 +84,11 @@ TEST_CASE("Smoothed rows have the same bits at one thread and at two", "[threads
 
 TEST_CASE("Rows, fields and picture have the same bits at one thread and at two",
           "[threads][long]") {
-    const Everything one = at_threads(1), two = at_threads(2);
-    CHECK(one.areas.starts == two.areas.starts);
-    CHECK(one.areas.columns == two.areas.columns);
-    CHECK(one.areas.values == two.areas.values);
-    CHECK(one.solution.forest.zone_count() == two.solution.forest.zone_count());
-    CHECK(one.solution.forest.patch_count() == two.solution.forest.patch_count());
-    CHECK(one.solution.coarse.radiance == two.solution.coarse.radiance);
-    CHECK(same_bits(one.solution.direct.zone, two.solution.direct.zone));
-    CHECK(same_bits(one.solution.direct.patch, two.solution.direct.patch));
-    CHECK(same_bits(one.solution.indirect.zone, two.solution.indirect.zone));
-    CHECK(same_bits(one.solution.indirect.patch, two.solution.indirect.patch));
-    REQUIRE(one.picture.layers.size() == two.picture.layers.size());
-    for (std::size_t l = 0; l < one.picture.layers.size(); ++l) {
-        INFO(one.picture.layers[l].name);
-        CHECK(one.picture.layers[l].values == two.picture.layers[l].values);
-    }
+    check_same(test::slit_room(), {2.8, 1.9, 1.0}, {0.5, 0.8, 1.0});
+}
+
+TEST_CASE("So they have where mirrors are, and lights in them", "[threads][long]") {
+    Scene scene = test::mirrored_box(false);
+    scene.lights = {{"bulb", PointLight{{0.3, 0.7, 0.6}, {2.0}}, ""}};
+    check_same(scene, {0.1, 0.1, 0.5}, {1.0, 0.7, 0.4});
 }
