@@ -250,7 +250,7 @@ class MitsubaWriter {
             return;
         }
         if (finish.roughness > 0.0)
-            note_once(
+            files_.note(
                 "Glossy surfaces: what microfacets reflect more than once, which Mitsuba loses, "
                 "is in their diffuse part: right in the mean, not in every direction.");
         if (!any(finish.diffuse)) {
@@ -309,7 +309,7 @@ class MitsubaWriter {
 
     void write_light(const radiosity::SpotLight& light) {
         if (light.soft_edge > 0.0)
-            note_once("Soft edges of spots fall linearly in Mitsuba, and smoothly in Tyndall.");
+            files_.note("Soft edges of spots fall linearly in Mitsuba, and smoothly in Tyndall.");
         auto emitter = xml_.element("emitter", {{"type", "spot"}});
         {
             auto transform = xml_.element("transform", {{"name", "to_world"}});
@@ -319,11 +319,6 @@ class MitsubaWriter {
         number("beam_width", 0.5 * light.angle * degrees);
         number("cutoff_angle", (0.5 * light.angle + light.soft_edge) * degrees);
         refer("medium", medium_at(e_, light.position));
-    }
-
-    void note_once(const std::string& sentence) {
-        if (std::ranges::find(files_.notes, sentence) == files_.notes.end())
-            files_.notes.push_back(sentence);
     }
 
     const radiosity::Enclosure& e_;
@@ -339,10 +334,7 @@ class MitsubaWriter {
 ExportedFiles mitsuba_scene(const radiosity::Enclosure& enclosure,
                             std::span<const render::Camera> cameras,
                             const PathTracerOptions& options) {
-    if (cameras.empty())
-        throw InputError(
-            "The scene has no camera, and a path tracer's scene needs one. Add a [[camera]], with "
-            "eye, target and fov_y.");
+    require_camera(cameras);
     return MitsubaWriter(enclosure, options).write(cameras);
 }
 

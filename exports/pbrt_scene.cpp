@@ -51,8 +51,9 @@ class PbrtWriter {
         print("# {}\n# Lengths in m, radiance in W/(m^2 sr).\n\n", title);
         write_camera(cameras[0]);
         if (cameras.size() > 1)
-            note(fmt::format("pbrt has one camera a file: this is \"{}\". --camera names another.",
-                             cameras[0].name));
+            files_.note(
+                fmt::format("pbrt has one camera a file: this is \"{}\". --camera names another.",
+                            cameras[0].name));
         for (std::size_t m = 0; m < room_.media.size(); ++m) write_medium(m);
         print("\nWorldBegin\n");
         for (const auto& light : room_.lights)
@@ -61,7 +62,7 @@ class PbrtWriter {
             print("\nLightSource \"infinite\" \"rgb L\" {}\n", numbers(room_.environment));
         write_surfaces();
         if (room_.bands == 3)
-            note(
+            files_.note(
                 "pbrt computes with spectra: red, green and blue multiply otherwise there where "
                 "light is reflected in colours. Export one band at a time (--band) to check "
                 "numbers.");
@@ -73,11 +74,6 @@ class PbrtWriter {
     template <class... Values>
     void print(fmt::format_string<Values...> format, Values&&... values) {
         fmt::format_to(std::back_inserter(text_), format, std::forward<Values>(values)...);
-    }
-
-    void note(const std::string& sentence) {
-        if (std::ranges::find(files_.notes, sentence) == files_.notes.end())
-            files_.notes.push_back(sentence);
     }
 
     std::string medium_name(std::uint32_t medium) const {
@@ -222,7 +218,7 @@ class PbrtWriter {
     }
 
     void define_specular(const std::string& name, const Spectrum& reflectance, double roughness) {
-        note(
+        files_.note(
             "Mirrors and gloss: pbrt takes the reflectance for that at normal incidence, and "
             "reflects more at grazing angles; Tyndall's mirrors reflect alike at all.");
         print(
@@ -264,7 +260,8 @@ class PbrtWriter {
 
     void write_light(const radiosity::SpotLight& light) {
         if (light.soft_edge > 0.0)
-            note("Soft edges of spots fall by the cosine in pbrt, and by the angle in Tyndall.");
+            files_.note(
+                "Soft edges of spots fall by the cosine in pbrt, and by the angle in Tyndall.");
         print("\nAttributeBegin\n");
         between(none, medium_at(e_, light.position));
         print(
@@ -288,10 +285,7 @@ class PbrtWriter {
 ExportedFiles pbrt_scene(const radiosity::Enclosure& enclosure,
                          std::span<const render::Camera> cameras,
                          const PathTracerOptions& options) {
-    if (cameras.empty())
-        throw InputError(
-            "The scene has no camera, and a path tracer's scene needs one. Add a [[camera]], with "
-            "eye, target and fov_y.");
+    require_camera(cameras);
     return PbrtWriter(enclosure, options).write(cameras);
 }
 

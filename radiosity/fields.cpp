@@ -1,5 +1,7 @@
 #include "radiosity/fields.h"
 
+#include "radiosity/coarsen_nodes.h"
+
 namespace tyndall::radiosity {
 
 Affine interpolate(const std::array<Point, 4>& p, const std::array<double, 4>& f) {
@@ -59,27 +61,7 @@ void flatten(const Forest& forest, Fields& fields) {
 }
 
 void coarsen(const Forest& forest, Fields& fields) {
-    // Children have higher indices than their parents: backwards is bottom-up.
-    for (std::size_t z = forest.zone_count(); z-- > 0;) {
-        const ZoneId parent(z);
-        if (forest.is_leaf(parent)) continue;
-        const ZoneId first = forest[parent].first_child, second(first.value + 1ull);
-        const double v0 = forest.volume(first), v1 = forest.volume(second);
-        const double w0 = v0 + v1 > 0.0 ? v0 / (v0 + v1) : 0.5, w1 = 1.0 - w0;
-        const Point c0 = forest.centroid(first), c1 = forest.centroid(second);
-        const auto step = c1 - c0;
-        const double square = glm::dot(step, step);
-        for (std::size_t b = 0; b < fields.bands; ++b) {
-            const Affine &f0 = fields.at(first, b), &f1 = fields.at(second, b);
-            const double m0 = f0.at(c0), m1 = f1.at(c1);
-            Affine& f = fields.at(parent, b);
-            f.gradient = w0 * f0.gradient + w1 * f1.gradient;
-            if (square > 0.0)
-                f.gradient += step * ((m1 - m0 - glm::dot(f.gradient, step)) / square);
-            const double mean = w0 * m0 + w1 * m1;
-            f.constant = mean - glm::dot(f.gradient, forest.centroid(parent));
-        }
-    }
+    coarsen_nodes<ZoneId>(forest, forest.zone_count(), fields);
 }
 
 }  // namespace tyndall::radiosity

@@ -1,6 +1,6 @@
 #include "view/pass_meshes.h"
 
-#include <glm/geometric.hpp>
+#include "radiosity/coarsen_nodes.h"
 
 namespace tyndall::view {
 namespace {
@@ -69,37 +69,6 @@ std::vector<std::size_t> ends_of_passes(const Solution& s, std::vector<PassMesh>
     return ends;
 }
 
-// Children have higher indices than their parents: backwards is bottom-up. As radiosity::coarsen
-// does for zones.
-void coarsen_patches(const Forest& forest, Fields& fields) {
-    for (std::size_t p = forest.patch_count(); p-- > 0;) {
-        const PatchId parent(p);
-        if (forest.is_leaf(parent)) continue;
-        const PatchId first = forest[parent].first_child, second(first.value + 1ull);
-        const double a0 = forest.area(first), a1 = forest.area(second);
-        const double w0 = a0 + a1 > 0.0 ? a0 / (a0 + a1) : 0.5, w1 = 1.0 - w0;
-        const auto c0 = forest.centroid(first), c1 = forest.centroid(second);
-        const auto step = c1 - c0;
-        const double square = glm::dot(step, step);
-        for (std::size_t b = 0; b < fields.bands; ++b) {
-            const Affine &f0 = fields.at(first, b), &f1 = fields.at(second, b);
-            const double m0 = f0.at(c0), m1 = f1.at(c1);
-            Affine& f = fields.at(parent, b);
-            f.gradient = w0 * f0.gradient + w1 * f1.gradient;
-            if (square > 0.0)
-                f.gradient += step * ((m1 - m0 - glm::dot(f.gradient, step)) / square);
-            f.constant = w0 * m0 + w1 * m1 - glm::dot(f.gradient, forest.centroid(parent));
-        }
-    }
-}
-
-double size_of(const Forest& forest, ZoneId zone) {
-    return forest.volume(zone);
-}
-double size_of(const Forest& forest, PatchId patch) {
-    return forest.area(patch);
-}
-
 template <class Node>
 void average(const Forest& forest, std::size_t nodes, std::size_t bands,
              std::vector<double>& values) {
@@ -108,7 +77,8 @@ void average(const Forest& forest, std::size_t nodes, std::size_t bands,
         const Node parent(n);
         if (forest.is_leaf(parent)) continue;
         const Node first = forest[parent].first_child, second(first.value + 1ull);
-        const double s0 = size_of(forest, first), s1 = size_of(forest, second);
+        const double s0 = radiosity::size_of(forest, first),
+                     s1 = radiosity::size_of(forest, second);
         const double w = s0 + s1 > 0.0 ? s0 / (s0 + s1) : 0.5;
         for (std::size_t b = 0; b < bands; ++b)
             values[n * bands + b] =
@@ -150,7 +120,7 @@ Solution with_inner_nodes(const Solution& solution) {
     Solution s = solution;
     for (Fields* fields : {&s.direct, &s.indirect}) {
         radiosity::coarsen(s.forest, *fields);
-        coarsen_patches(s.forest, *fields);
+        radiosity::coarsen_nodes<PatchId>(s.forest, s.forest.patch_count(), *fields);
     }
     const std::size_t bands = s.enclosure->bands;
     average<ZoneId>(s.forest, s.forest.zone_count(), bands, s.settled.zone);
