@@ -8,11 +8,13 @@ set. With --pictures it writes both pictures side by side as PNG files.
 """
 
 import json
-import os
 import pathlib
 import shutil
 import subprocess
 import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
+from verdicts import check, skip  # noqa: E402
 
 BATCHES = 12  # independent pictures, whose spread is Mitsuba's noise
 BLOCK = 8     # pixels
@@ -30,17 +32,6 @@ SCENES = [
 # The solution has no part in a picture by paths: as little of it as there can be.
 QUICK = ["solve.refinement=uniform", "solve.max_elements=300", "solve.rays=16",
          "solve.gather_rays=16", "solve.error=0.9"]
-
-
-def skip(reason):
-    print(f"skipped: {reason}")
-    sys.exit(1 if os.environ.get("TYNDALL_REQUIRE_MITSUBA") else 77)
-
-
-def check(truth, what):
-    if not truth:
-        raise AssertionError(what)
-    print(f"ok: {what}")
 
 
 def settings(keys):
@@ -118,7 +109,7 @@ def main(tyndall, project, folder, with_pictures):
         import numpy as np
         mi.set_variant("scalar_rgb")
     except ImportError as error:
-        skip(f"no mitsuba: {error}")
+        skip(f"no mitsuba: {error}", "TYNDALL_REQUIRE_MITSUBA")
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     pictures = Pictures(mi, np, tyndall, folder)

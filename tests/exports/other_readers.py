@@ -8,26 +8,17 @@ skipped, where VTK is missing, unless TYNDALL_REQUIRE_VTK is set.
 
 import json
 import math
-import os
 import pathlib
 import shutil
 import subprocess
 import sys
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
+from verdicts import check, skip  # noqa: E402
+
 ARRAYS = ["albedo", "emission", "error", "extinction", "flux_divergence", "incident", "irradiance",
           "kind", "level", "name_id", "net_flux", "parent", "radiosity", "source_radiance",
           "source_radiance_gradient"]
-
-
-def skip(reason):
-    print(f"skipped: {reason}")
-    sys.exit(1 if os.environ.get("TYNDALL_REQUIRE_VTK") else 77)
-
-
-def check(truth, what):
-    if not truth:
-        raise AssertionError(what)
-    print(f"ok: {what}")
 
 
 def near(a, b, relative):
@@ -237,7 +228,7 @@ def main(tyndall, scene, folder):
     try:
         import vtk
     except ImportError:
-        skip("no python3-vtk9")
+        skip("no python3-vtk9", "TYNDALL_REQUIRE_VTK")
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
 

@@ -8,12 +8,14 @@ unless TYNDALL_REQUIRE_BROWSER is set.
 """
 
 import json
-import os
 import pathlib
 import re
 import shutil
 import subprocess
 import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
+from verdicts import check, skip  # noqa: E402
 
 # Of the larger of a pixel's radiance and a thousandth of the mean. Single precision places a ray
 # on a leaf's face to 1e-7 of the room, and J changes by its own size across the smallest leaves,
@@ -22,17 +24,6 @@ WORST = 1e-4
 FLAGS = ["--headless", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
          "--disable-dev-shm-usage", "--disable-background-networking",
          "--force-device-scale-factor=0.5"]  # few pixels: they are drawn without a GPU
-
-
-def skip(reason):
-    print(f"skipped: {reason}")
-    sys.exit(1 if os.environ.get("TYNDALL_REQUIRE_BROWSER") else 77)
-
-
-def check(truth, what):
-    if not truth:
-        raise AssertionError(what)
-    print(f"ok: {what}")
 
 
 def self_test(chromium, page, profile):
@@ -271,12 +262,12 @@ def main():
     tyndall, scene, folder = sys.argv[1], sys.argv[2], pathlib.Path(sys.argv[3])
     chromium, driver = shutil.which("chromium"), shutil.which("chromedriver")
     if not chromium or not driver:
-        skip("chromium and chromium-driver are not installed")
+        skip("chromium and chromium-driver are not installed", "TYNDALL_REQUIRE_BROWSER")
     try:
         from selenium import webdriver
         import selenium.webdriver.chrome.service
     except ImportError:
-        skip("python3-selenium is not installed")
+        skip("python3-selenium is not installed", "TYNDALL_REQUIRE_BROWSER")
     shutil.rmtree(folder, ignore_errors=True)
     page = folder / "view.html"
     if scene.endswith(".html"):
