@@ -5,6 +5,7 @@
 #include "radiosity/adaptive.h"
 #include "radiosity/exchange_methods.h"
 #include "radiosity/exchange_walked.h"
+#include "radiosity/gather.h"
 #include "support/catch.h"
 #include "support/crowded_cube.h"
 #include "support/mirror_scenes.h"
@@ -123,6 +124,22 @@ TEST_CASE("Rows with level of detail go on at mirrors", "[exchange]") {
                                 {.rays = 64, .detail = 4.0, .progress = {}});
     REQUIRE(!areas.levels.empty());
     CHECK(closure_error(areas, rows.elements, 0) < 1e-7);
+}
+
+TEST_CASE("A ray that two perfect mirrors send to and fro for ever brings nothing", "[gather]") {
+    const Rows rows(mirror_room(1.0, 0.0));
+    Fields sources;
+    sources.resize(rows.forest, 1);
+    for (std::size_t p = 0; p < rows.forest.patch_count(); ++p) {
+        const auto side = side_of(rows.enclosure, rows.forest, PatchId(p));
+        if (side != none && rows.enclosure.sides[side].mirrored(0) < 0.9)  // these send nothing
+            sources.patch[p].constant = 1.0;
+    }
+    const Point x{0.5, 0.3, 0.4};
+    double radiance = -1.0;
+    radiance_along(GatherScene(rows.enclosure, rows.forest, sources), {x, {1.0, 0.0, 0.0}},
+                   {mesh::locate(rows.enclosure.mesh, x)}, {&radiance, 1});
+    CHECK(radiance == 0.0);
 }
 
 TEST_CASE("Other methods say that they do not follow mirrors", "[exchange]") {
