@@ -7,11 +7,14 @@
 
 namespace tyndall::radiosity {
 
+// Purpose: the weight of a node in its parent's mean: a zone's volume [m^3] or a patch's area
+//   [m^2]. Cost: O(1).
 inline double size_of(const Forest& forest, ZoneId zone) {
-    return forest.volume(zone);  // [m^3]
+    return forest.volume(zone);
 }
+// The same for a patch.
 inline double size_of(const Forest& forest, PatchId patch) {
-    return forest.area(patch);  // [m^2]
+    return forest.area(patch);
 }
 
 // Purpose: functions of inner nodes that keep the integral over both children and the means of
