@@ -76,6 +76,9 @@ void ElementMesh::mark(VertexId vertex, std::uint32_t plane_index, const ShadowP
     if (marks.size() >= most_marks) return;
     if (std::find(marks.begin(), marks.end(), plane_index) != marks.end()) return;
     marks.push_back(plane_index);
+    if (vertex.value >= mark_counts_.size())
+        mark_counts_.resize(std::max<std::size_t>(forest_.vertex_count(), vertex.value + 1ull));
+    ++mark_counts_[vertex.value];
     mark_planes_.try_emplace(plane_index, plane);
 }
 
@@ -121,43 +124,73 @@ SampleId ElementMesh::lit(Node node, VertexId vertex, const Marks& marks) {
     return sample(node, vertex, sides, x + std::min(step, 0.5) * (centroid - x));
 }
 
-template <std::size_t count, class Node>
-std::array<SampleId, count> ElementMesh::lit_corners_of(Node node) {
+const ElementMesh::Marks& ElementMesh::marks_at(VertexId vertex) const {
     static const Marks unmarked;
-    const auto vertices = forest_[node].corners;
-    std::array<SampleId, count> result;
-    for (std::size_t k = 0; k < count; ++k) {
-        const auto marks = marks_.find(vertices[k].value);
-        result[k] = lit(node, vertices[k], marks == marks_.end() ? unmarked : marks->second);
-    }
-    return result;
+    if (mark_count(vertex) == 0) return unmarked;
+    return marks_.find(vertex.value)->second;
 }
 
+template <std::size_t corners>
 template <class Node>
+ElementMesh::LitSamples<corners>& ElementMesh::LitNodes<corners>::of(Node node, std::size_t nodes) {
+    std::uint32_t& found = known_of(entry, node, nodes);
+    if (found == 0) {
+        found = static_cast<std::uint32_t>(samples.size());
+        samples.emplace_back();
+    }
+    return samples[found];
+}
+
+template <std::size_t count, class Node>
+std::array<SampleId, count> ElementMesh::lit_corners_of(Node node) {
+    const auto& vertices = forest_[node].corners;
+    std::uint32_t marks = 0;
+    for (const VertexId vertex : vertices) marks += mark_count(vertex);
+    if (marks == 0) return corners(node);
+    LitSamples<count>& known =
+        lit_nodes(node).of(node, count == 4 ? forest_.zone_count() : forest_.patch_count());
+    if (known.corner_marks != marks) {
+        for (std::size_t k = 0; k < count; ++k)
+            known.at_corners[k] = lit(node, vertices[k], marks_at(vertices[k]));
+        known.corner_marks = marks;
+    }
+    return known.at_corners;
+}
+
+template <std::size_t count, class Node>
 SampleId ElementMesh::lit_middle_of(Node node, int i, int j) {
     const auto& vertices = forest_[node].corners;
-    const VertexId a = vertices[i], b = vertices[j], middle = forest_.vertex_on_edge(a, b);
-    const auto of_a = marks_.find(a.value), of_b = marks_.find(b.value);
+    const VertexId a = vertices[i], b = vertices[j], middle = middle_vertex<count>(node, i, j);
+    const auto marks = [&] { return mark_count(a) + mark_count(b) + mark_count(middle); };
+    if (marks() == 0) return middle_of<count>(node, i, j);
+    LitSamples<count>& known =
+        lit_nodes(node).of(node, count == 4 ? forest_.zone_count() : forest_.patch_count());
+    const int edge = edge_of<count>(i, j);
+    if (known.middle_marks[edge] == marks()) return known.in_middles[edge];
     // What both ends lie on the middle lies on, too.
-    if (of_a != marks_.end() && of_b != marks_.end()) {
-        const Marks &first = of_a->second, &second = of_b->second;
-        Marks both;
-        std::copy_if(first.begin(), first.end(), std::back_inserter(both), [&](std::uint32_t m) {
-            return std::find(second.begin(), second.end(), m) != second.end();
-        });
-        for (const std::uint32_t m : both) mark(middle, m, mark_planes_.at(m));
-    }
-    const auto marks = marks_.find(middle.value);
-    return lit(node, middle, marks == marks_.end() ? Marks{} : marks->second);
+    const Marks first = marks_at(a), &second = marks_at(b);
+    for (const std::uint32_t m : first)
+        if (std::find(second.begin(), second.end(), m) != second.end())
+            mark(middle, m, mark_planes_.at(m));
+    known.middle_marks[edge] = marks();
+    return known.in_middles[edge] = lit(node, middle, marks_at(middle));
 }
 
 template std::array<SampleId, 4> ElementMesh::lit_corners_of<4>(ZoneId);
 template std::array<SampleId, 3> ElementMesh::lit_corners_of<3>(PatchId);
-template SampleId ElementMesh::lit_middle_of(ZoneId, int, int);
-template SampleId ElementMesh::lit_middle_of(PatchId, int, int);
+template SampleId ElementMesh::lit_middle_of<4>(ZoneId, int, int);
+template SampleId ElementMesh::lit_middle_of<3>(PatchId, int, int);
+
+template <std::size_t count, class Node>
+ElementMesh::NodeSamples<count>& ElementMesh::samples_of(Node node) {
+    if constexpr (count == 4)
+        return known_of(of_zone_, node, forest_.zone_count());
+    else
+        return known_of(of_patch_, node, forest_.patch_count());
+}
 
 std::array<SampleId, 4> ElementMesh::corners(ZoneId zone) {
-    auto& known = known_of(of_zone_, zone, forest_.zone_count()).at_corners;
+    auto& known = samples_of<4>(zone).at_corners;
     if (known[0].valid()) return known;
     const auto vertices = forest_[zone].corners;
     const TetId tet = forest_.base_tet(zone);
@@ -166,7 +199,7 @@ std::array<SampleId, 4> ElementMesh::corners(ZoneId zone) {
 }
 
 std::array<SampleId, 3> ElementMesh::corners(PatchId patch) {
-    auto& known = known_of(of_patch_, patch, forest_.patch_count()).at_corners;
+    auto& known = samples_of<3>(patch).at_corners;
     if (known[0].valid()) return known;
     const auto vertices = forest_[patch].corners;
     const auto side = forest_.base_facet_side(patch);
@@ -174,21 +207,23 @@ std::array<SampleId, 3> ElementMesh::corners(PatchId patch) {
     return known;
 }
 
-SampleId ElementMesh::middle(ZoneId zone, int i, int j) {
-    auto& known = known_of(of_zone_, zone, forest_.zone_count()).in_middles[edge_of<4>(i, j)];
-    if (known.valid()) return known;
-    const auto& vertices = forest_[zone].corners;
-    const VertexId vertex = forest_.vertex_on_edge(vertices[i], vertices[j]);
-    return known = samples_.in_zone(vertex, forest_.base_tet(zone));
+template <std::size_t count, class Node>
+VertexId ElementMesh::middle_vertex(Node node, int i, int j) {
+    VertexId& known = samples_of<count>(node).middles[edge_of<count>(i, j)];
+    if (!known.valid())
+        known = forest_.vertex_on_edge(forest_[node].corners[i], forest_[node].corners[j]);
+    return known;
 }
 
-SampleId ElementMesh::middle(PatchId patch, int i, int j) {
-    auto& known = known_of(of_patch_, patch, forest_.patch_count()).in_middles[edge_of<3>(i, j)];
-    if (known.valid()) return known;
-    const auto& vertices = forest_[patch].corners;
-    const VertexId vertex = forest_.vertex_on_edge(vertices[i], vertices[j]);
-    return known = samples_.on_patch(vertex, forest_.base_facet_side(patch));
+template <std::size_t count, class Node>
+SampleId ElementMesh::middle_of(Node node, int i, int j) {
+    SampleId& known = samples_of<count>(node).in_middles[edge_of<count>(i, j)];
+    if (!known.valid()) known = sample(node, middle_vertex<count>(node, i, j), 0, {});
+    return known;
 }
+
+template SampleId ElementMesh::middle_of<4>(ZoneId, int, int);
+template SampleId ElementMesh::middle_of<3>(PatchId, int, int);
 
 void ElementMesh::refine_to(const InitialSize& size) {
     using Entry = std::pair<float, std::uint32_t>;  // longest edge, node
