@@ -22,11 +22,23 @@ struct BaseFacet {
 // Facets that stand in the tets without being cut into them: no tet has them on a face, and a walk
 // ends where it meets them (body.h).
 struct Body {
+    // A sphere about some of its triangles; a tree of them, in depth-first order.
+    struct Bound {
+        Point centre{0};  // [m]
+        double radius = 0.0;
+        std::uint32_t next = 0;               // the bound after all that are within this one
+        std::uint32_t triangle = 0, end = 0;  // of `triangles`; the same: it holds bounds
+
+        bool operator==(const Bound&) const = default;
+    };
+
     FacetId first, end;  // of its facets
     Point centre{0};     // of a sphere that holds it [m]
     double radius = 0.0;
     bool closed = false;  // its fronts look outward all round: nothing is inside
     double gap = 0.0;     // rays do not see it before this distance from their origin [m]
+    std::vector<Bound> bounds{};
+    std::vector<FacetId> triangles{};  // in the order of the bounds
 
     bool operator==(const Body&) const = default;
 };

@@ -1,5 +1,6 @@
 #include "mesh/body.h"
 
+#include <algorithm>
 #include <map>
 
 namespace tyndall::mesh {
@@ -33,30 +34,113 @@ walk_detail::Projected across(const BaseMesh& mesh, const walk_detail::Frame& fr
     return {glm::dot(p, frame.u), glm::dot(p, frame.v), 0.0, id.value};
 }
 
-// Of one body; hits nearer than `hit` only.
-void meet(const BaseMesh& mesh, const Body& body, const Ray& ray, BodyHit& hit) {
+// Of one triangle; hits nearer than `hit` only, of two at one distance the facet made first.
+void meet(const BaseMesh& mesh, const walk_detail::Frame& project, FacetId facet, double gap,
+          double length, BodyHit& hit) {
     using namespace walk_detail;
-    const Frame project(ray);
-    for (std::uint32_t f = body.first.value; f < body.end.value; ++f) {
-        // Most are missed: no more is computed than tells so.
-        const auto& corners = mesh.facets[f].corners;
-        Projected a = across(mesh, project, corners[0]), b = across(mesh, project, corners[1]);
-        const double ab = cross(a, b);
-        const bool along = positive(ab, a, b);
-        Projected c = across(mesh, project, corners[2]);
-        const double bc = cross(b, c);
-        if (positive(bc, b, c) != along) continue;
-        const double ca = cross(c, a);
-        if (positive(ca, c, a) != along) continue;
-        for (Projected* p : {&a, &b, &c})
-            p->w = glm::dot(mesh.points[p->id] - project.origin, project.w);
-        const double sum = ab + bc + ca;
-        if (sum == 0.0) continue;  // seen edge-on: its neighbours are met
-        const double distance = (bc * a.w + ca * b.w + ab * c.w) / sum;
-        if (distance > body.gap && distance <= ray.length && distance < hit.distance)
-            hit = {FacetId(f), along ? Side::back : Side::front, distance};
+    // Most are missed: no more is computed than tells so.
+    const auto& corners = mesh.facets[facet.value].corners;
+    Projected a = across(mesh, project, corners[0]), b = across(mesh, project, corners[1]);
+    const double ab = cross(a, b);
+    const bool along = positive(ab, a, b);
+    Projected c = across(mesh, project, corners[2]);
+    const double bc = cross(b, c);
+    if (positive(bc, b, c) != along) return;
+    const double ca = cross(c, a);
+    if (positive(ca, c, a) != along) return;
+    for (Projected* p : {&a, &b, &c})
+        p->w = glm::dot(mesh.points[p->id] - project.origin, project.w);
+    const double sum = ab + bc + ca;
+    if (sum == 0.0) return;  // seen edge-on: its neighbours are met
+    const double distance = (bc * a.w + ca * b.w + ab * c.w) / sum;
+    if (distance <= gap || distance > length) return;
+    if (distance < hit.distance || (distance == hit.distance && facet < hit.facet))
+        hit = {facet, along ? Side::back : Side::front, distance};
+}
+
+// Of one body.
+void meet(const BaseMesh& mesh, const Body& body, const Ray& ray, BodyHit& hit) {
+    const walk_detail::Frame project(ray);
+    for (std::uint32_t n = 0; n < body.bounds.size();) {
+        const Body::Bound& bound = body.bounds[n];
+        if (!meets_sphere(bound, ray)) {
+            n = bound.next;
+            continue;
+        }
+        for (std::uint32_t t = bound.triangle; t < bound.end; ++t)
+            meet(mesh, project, body.triangles[t], body.gap, ray.length, hit);
+        ++n;
     }
 }
+
+// A tree of spheres about a body's triangles, halved across the longest side of their centroids'
+// box.
+class Bounds {
+  public:
+    Bounds(const BaseMesh& mesh, Body& body) : mesh_(mesh), body_(body) {
+        for (std::uint32_t f = body.first.value; f < body.end.value; ++f)
+            body.triangles.push_back(FacetId(f));
+        add(0, static_cast<std::uint32_t>(body.triangles.size()));
+    }
+
+  private:
+    static constexpr std::uint32_t most_triangles = 4;
+    static constexpr double rounding = 1e-9;
+
+    Point corner(FacetId facet, int k) const {
+        return mesh_.points[mesh_.facets[facet.value].corners[k].value];
+    }
+    Point sum(FacetId facet) const {
+        return corner(facet, 0) + corner(facet, 1) + corner(facet, 2);
+    }
+
+    void add(std::uint32_t begin, std::uint32_t end) {
+        const std::size_t own = body_.bounds.size();
+        body_.bounds.push_back(around(begin, end));
+        if (end - begin > most_triangles) {
+            const std::uint32_t half = begin + (end - begin) / 2;
+            halve(begin, half, end);
+            add(begin, half);
+            add(half, end);
+        } else {
+            body_.bounds[own].triangle = begin;
+            body_.bounds[own].end = end;
+        }
+        body_.bounds[own].next = static_cast<std::uint32_t>(body_.bounds.size());
+    }
+
+    Body::Bound around(std::uint32_t begin, std::uint32_t end) const {
+        Point low = corner(body_.triangles[begin], 0), high = low;
+        const auto each_corner = [&](auto&& visit) {
+            for (std::uint32_t t = begin; t < end; ++t)
+                for (int k = 0; k < 3; ++k) visit(corner(body_.triangles[t], k));
+        };
+        each_corner([&](Point p) { low = glm::min(low, p), high = glm::max(high, p); });
+        Body::Bound bound;
+        bound.centre = 0.5 * (low + high);
+        each_corner([&](Point p) {
+            bound.radius = std::max(bound.radius, glm::distance(p, bound.centre));
+        });
+        bound.radius += rounding * body_.radius;
+        return bound;
+    }
+
+    void halve(std::uint32_t begin, std::uint32_t half, std::uint32_t end) {
+        Point low = sum(body_.triangles[begin]), high = low;
+        for (std::uint32_t t = begin; t < end; ++t)
+            low = glm::min(low, sum(body_.triangles[t])),
+            high = glm::max(high, sum(body_.triangles[t]));
+        const Point size = high - low;
+        const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+        const auto at = [&](std::uint32_t t) { return body_.triangles.begin() + t; };
+        std::nth_element(at(begin), at(half), at(end), [&](FacetId a, FacetId b) {
+            return std::pair(sum(a)[axis], a) < std::pair(sum(b)[axis], b);
+        });
+    }
+
+    const BaseMesh& mesh_;
+    Body& body_;
+};
 
 // The nearest point of a triangle. Source: Ericson (2005), Real-Time Collision Detection, 5.1.5.
 Point nearest_on(Point p, Point a, Point b, Point c) {
@@ -103,6 +187,7 @@ Body body_of(const BaseMesh& mesh, FacetId first, FacetId end) {
         body.radius = std::max(body.radius, (1.0 + 1e-9) * glm::distance(p, body.centre));
     body.closed = turns_outward(points, triangles);
     body.gap = gap * glm::distance(mesh.hull_min, mesh.hull_max);
+    Bounds(mesh, body);
     return body;
 }
 

@@ -5,7 +5,8 @@
 //   occluders are those of any facet.
 // Valid for: triangles of any number and place, each with two ends of every edge at the same
 //   vertex: then no ray slips between neighbours, by the walk's own tests of edges.
-// Cost: a test of a sphere a body and ray; of the rays that meet it, a test a triangle.
+// Cost: a test of a sphere a body and ray; of the rays that meet it, some tens of tests: a tree of
+//   spheres leads to the triangles.
 #pragma once
 
 #include <span>

@@ -49,13 +49,14 @@ struct BodyHit {
     double distance = std::numeric_limits<double>::infinity();  // [m]
 };
 
-// Whether a ray comes near enough to a body to meet it.
-inline bool meets_sphere(const Body& body, const Ray& ray) {
-    const auto to = body.centre - ray.origin;
+// Whether a ray comes near enough to a body, or to a bound of it, to meet it.
+template <class Ball>
+bool meets_sphere(const Ball& ball, const Ray& ray) {
+    const auto to = ball.centre - ray.origin;
     const double along = glm::dot(to, ray.direction);
-    const double beyond = glm::dot(to, to) - body.radius * body.radius;  // of the sphere, if > 0
+    const double beyond = glm::dot(to, to) - ball.radius * ball.radius;  // of the sphere, if > 0
     return beyond <= 0.0 ||
-           (along > 0.0 && beyond <= along * along && along - body.radius <= ray.length);
+           (along > 0.0 && beyond <= along * along && along - ball.radius <= ray.length);
 }
 
 // The first facet of a body that a ray meets within its length (body.h).

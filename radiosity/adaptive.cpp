@@ -160,7 +160,11 @@ class Loop {
         IndirectSources sources{leaf_light_.sources(coarse, &lit), &lit, gather_detail(),
                                 leaf_light_.in_mirrors(coarse, true)};
         std::optional<GatherChange> change;
-        if (kept_.moved) change.emplace(*kept_.moved, *enclosure_, change_sources(coarse));
+        if (kept_.moved)
+            change.emplace(
+                *kept_.moved,
+                GatherChange::Now{*enclosure_, coarse.all_areas(), change_sources(coarse)},
+                options_.error);
         mesh_.samples().take_from(change ? &*change : nullptr);
         mesh_.samples().keep_in(kept_.keep ? &kept_.keep->gathers : nullptr);
         const Fields in_zones = kept_.keep ? sources.fields : Fields{};
@@ -176,7 +180,7 @@ class Loop {
         direct_.update();
         direct_.sample_means();
         mesh_.samples().take_from(nullptr);
-        if (kept_.keep) keep(coarse, in_zones, sources);
+        if (kept_.keep) keep(coarse, in_zones, sources, lit);
     }
 
     // r and H of the elements that changes are told by (KeptLight::gathered_from).
@@ -187,12 +191,13 @@ class Loop {
     }
 
     void keep(const CoarseSolution& coarse, const Fields& in_zones,
-              const IndirectSources& on_patches) {
+              const IndirectSources& on_patches, const LitPatches& lit) {
         KeptLight& kept = *kept_.keep;
         light_.keep_in(nullptr);
         kept.elements = coarse.elements();
         kept.areas = coarse.all_areas();
         kept.gathered_from = change_sources(coarse);
+        kept.lit_in_middles = lit_in_middles(*enclosure_, mesh_.forest(), coarse.elements(), lit);
         kept.scale = scale_;
         kept.finish(enclosure_, mesh_.forest(), in_zones, on_patches.fields, on_patches.detail);
     }
@@ -318,7 +323,9 @@ void Loop::solve(CoarseSolution& coarse, const LitPatches* lit) {
         conserve_direct_power(*enclosure_, e, light_, *escaped_direct_, incident_direct_);
     const std::size_t rays = coarse.rays();
     if (lit) {
-        incident_lit_ = incident_lit(*enclosure_, mesh_.forest(), e, *lit);
+        incident_lit_ = kept_.moved
+                            ? moved_incident_lit(*kept_.moved, *enclosure_, mesh_.forest(), e, *lit)
+                            : incident_lit(*enclosure_, mesh_.forest(), e, *lit);
         coarse.solve(incident_direct_, incident_lit_);
     } else {
         coarse.solve(incident_direct_);

@@ -9,10 +9,11 @@
 namespace tyndall::radiosity {
 namespace {
 
+using Rule = std::vector<std::pair<Receiver, double>>;
+
 // Points of degree 2 on an element, each with its part of the area or volume.
-std::vector<std::pair<Receiver, double>> quadrature(const Enclosure& enclosure,
-                                                    const Forest& forest, PatchId patch) {
-    std::vector<std::pair<Receiver, double>> points;
+Rule quadrature(const Enclosure& enclosure, const Forest& forest, PatchId patch) {
+    Rule points;
     for (const VertexId corner : forest[patch].corners) {
         const Point x = 0.5 * (forest.point(corner) + forest.centroid(patch));
         points.push_back({{x, mesh::tet_before(enclosure.mesh, forest.base_facet_side(patch), x),
@@ -22,11 +23,10 @@ std::vector<std::pair<Receiver, double>> quadrature(const Enclosure& enclosure,
     return points;
 }
 
-std::vector<std::pair<Receiver, double>> quadrature(const Enclosure& enclosure,
-                                                    const Forest& forest, ZoneId zone) {
+Rule quadrature(const Enclosure& enclosure, const Forest& forest, ZoneId zone) {
     constexpr double towards_corner = 0.4472135954999579;  // 1/√5
     const MediumOptics& optics = enclosure.media[medium_of(enclosure, forest, zone)];
-    std::vector<std::pair<Receiver, double>> points;
+    Rule points;
     for (const VertexId corner : forest[zone].corners) {
         const Point centre = forest.centroid(zone);
         const Point x = centre + towards_corner * (forest.point(corner) - centre);
@@ -43,26 +43,87 @@ std::vector<std::pair<Receiver, double>> quadrature(const Enclosure& enclosure,
     return points;
 }
 
+// The middle of an element; a patch's, which is before its side of the facet.
+Rule middle(const Enclosure& enclosure, const Forest& forest, PatchId patch) {
+    const Point x = forest.centroid(patch);
+    return {{{x, mesh::tet_before(enclosure.mesh, forest.base_facet_side(patch), x),
+              normal_of(forest, patch), true},
+             forest.area(patch)}};
+}
+
+Rule middle(const Enclosure& enclosure, const Forest& forest, ZoneId zone) {
+    const OpenPlace place = open_place(enclosure, forest.centroid(zone), forest.base_tet(zone));
+    return {{{place.x, place.tet}, forest.volume(zone)}};
+}
+
+// What arrives at an element, by the rule that `points` gives for each of its members.
+template <class Points>
+void gather_over(const Elements& e, std::size_t i, const LitPatches& lit, Points&& points,
+                 std::span<double> mean) {
+    std::vector<double> here(e.bands);
+    double measure = 0.0;
+    std::fill(mean.begin(), mean.end(), 0.0);
+    for (const std::uint32_t member : e.members_of(i))
+        for (const auto& [receiver, size] :
+             e.is_patch(i) ? points(PatchId(member)) : points(ZoneId(member))) {
+            std::fill(here.begin(), here.end(), 0.0);
+            lit.gather(receiver, here);
+            measure += size;
+            for (std::size_t b = 0; b < e.bands; ++b) mean[b] += size * here[b];
+        }
+    for (double& value : mean) value /= measure;
+}
+
+template <class Node>
+bool near_body(const Forest& forest, Node node, std::span<const mesh::Body> bodies) {
+    return std::ranges::any_of(bodies, [&](const mesh::Body& body) {
+        return glm::distance(forest.centroid(node), body.centre) <=
+               body.radius + forest[node].longest_edge;
+    });
+}
+
 }  // namespace
 
 std::vector<double> incident_lit(const Enclosure& enclosure, const Forest& forest,
                                  const Elements& e, const LitPatches& lit) {
-    std::vector<double> incident(e.size() * e.bands, 0.0);
+    std::vector<double> incident(e.size() * e.bands);
     tbb::parallel_for(std::size_t(0), e.size(), [&](std::size_t i) {
-        const std::span<double> sum(incident.data() + i * e.bands, e.bands);
-        std::vector<double> here(e.bands);
-        double measure = 0.0;
-        for (const std::uint32_t member : e.members_of(i)) {
-            const auto points = e.is_patch(i) ? quadrature(enclosure, forest, PatchId(member))
-                                              : quadrature(enclosure, forest, ZoneId(member));
-            for (const auto& [receiver, size] : points) {
-                std::fill(here.begin(), here.end(), 0.0);
-                lit.gather(receiver, here);
-                measure += size;
-                for (std::size_t b = 0; b < e.bands; ++b) sum[b] += size * here[b];
-            }
+        gather_over(e, i, lit, [&](auto node) { return quadrature(enclosure, forest, node); },
+                    {incident.data() + i * e.bands, e.bands});
+    });
+    return incident;
+}
+
+std::vector<double> lit_in_middles(const Enclosure& enclosure, const Forest& forest,
+                                   const Elements& e, const LitPatches& lit) {
+    std::vector<double> incident(e.size() * e.bands);
+    tbb::parallel_for(std::size_t(0), e.size(), [&](std::size_t i) {
+        gather_over(e, i, lit, [&](auto node) { return middle(enclosure, forest, node); },
+                    {incident.data() + i * e.bands, e.bands});
+    });
+    return incident;
+}
+
+std::vector<double> incident_lit(const Enclosure& enclosure, const Forest& forest,
+                                 const Elements& e, const LitPatches& lit,
+                                 const LitBefore& before) {
+    std::vector<double> incident(e.size() * e.bands);
+    tbb::parallel_for(std::size_t(0), e.size(), [&](std::size_t i) {
+        const std::span<double> mean(incident.data() + i * e.bands, e.bands);
+        const auto members = e.members_of(i);
+        const bool near = std::ranges::any_of(members, [&](std::uint32_t member) {
+            return e.is_patch(i) ? near_body(forest, PatchId(member), before.bodies)
+                                 : near_body(forest, ZoneId(member), before.bodies);
+        });
+        if (near)
+            return gather_over(
+                e, i, lit, [&](auto node) { return quadrature(enclosure, forest, node); }, mean);
+        gather_over(
+            e, i, lit, [&](auto node) { return middle(enclosure, forest, node); }, mean);
+        for (std::size_t b = 0; b < e.bands; ++b) {
+            const std::size_t k = i * e.bands + b;
+            mean[b] = std::max(0.0, before.means[k] + mean[b] - before.in_middles[k]);
         }
-        for (double& value : sum) value /= measure;
     });
     return incident;
 }

@@ -1,9 +1,15 @@
 #include "radiosity/kept_light.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "radiosity/incident_lit.h"
 
 namespace tyndall::radiosity {
 namespace {
+
+// Of the goal: what a change that is linear over an element may miss.
+constexpr double missed_share = 0.1;
 
 // Of a gather's rays: where more meet a body, all are walked anew.
 constexpr double most_met = 0.4;
@@ -87,29 +93,57 @@ bool fits(const KeptLight& kept, const Enclosure& enclosure) {
     return true;
 }
 
-GatherChange::GatherChange(const KeptLight& before, const Enclosure& enclosure,
-                           std::vector<double> gathered_from)
-    : before_(before), bodies_(before.enclosure->mesh.bodies), bands_(enclosure.bands) {
-    bodies_.insert(bodies_.end(), enclosure.mesh.bodies.begin(), enclosure.mesh.bodies.end());
+std::vector<mesh::Body> bodies_of(const Enclosure& before, const Enclosure& now) {
+    std::vector<mesh::Body> bodies = before.mesh.bodies;
+    bodies.insert(bodies.end(), now.mesh.bodies.begin(), now.mesh.bodies.end());
+    return bodies;
+}
+
+std::vector<double> moved_incident_lit(const KeptLight& before, const Enclosure& enclosure,
+                                       const Forest& forest, const Elements& elements,
+                                       const LitPatches& lit) {
+    const auto bodies = bodies_of(*before.enclosure, enclosure);
+    const auto means = std::span(before.gathered_from).subspan(elements.size() * elements.bands);
+    return incident_lit(enclosure, forest, elements, lit, {means, before.lit_in_middles, bodies});
+}
+
+GatherChange::GatherChange(const KeptLight& before, const Now& now, double error)
+    : before_(before),
+      bodies_(bodies_of(*before.enclosure, now.enclosure)),
+      bands_(now.enclosure.bands),
+      may_miss_(missed_share * error) {
     const Elements& e = before.elements;
     const std::size_t n = e.size();
-    change_.resize(2 * n * bands_);
+    for (auto* functions : {&of_sources_, &of_lit_, &far_}) functions->resize(n * bands_);
     std::size_t made = 0;
     std::vector<std::size_t> distinct;  // of the bands, as CoarseSolution has them
+    std::vector<double> r(n), change(n), lit(n);
     for (std::size_t b = 0; b < bands_; ++b) {
-        const std::size_t same = first_of_extinction(enclosure, b);
+        const std::size_t same = first_of_extinction(now.enclosure, b);
         distinct.push_back(same < b ? distinct[same] : made++);
-        const ExchangeAreas& areas = before.areas[distinct[b]];
-        std::vector<double> r(n), lit(n);
+        const ExchangeAreas& rows = now.areas[distinct[b]];
+        const ExchangeAreas& rows_before = before.areas[distinct[b]];
         for (std::size_t i = 0; i < n; ++i) {
             const std::size_t k = i * bands_ + b;
-            r[i] = gathered_from[k] - before.gathered_from[k];
-            lit[i] = gathered_from[n * bands_ + k] - before.gathered_from[n * bands_ + k];
+            r[i] = now.gathered_from[k];
+            change[i] = r[i] - before.gathered_from[k];
+            lit[i] = now.gathered_from[n * bands_ + k] - before.gathered_from[n * bands_ + k];
         }
-        std::vector<double> mean = multiply(areas, e, r);  // (50)
-        for (std::size_t i = 0; i < n; ++i) mean[i] /= std::max(e.capacity[i * bands_ + b], 1e-300);
-        set_linear(before, areas, mean, b, &change_[0]);
-        set_linear(before, areas, lit, b, &change_[n * bands_]);
+        const std::vector<double> kept_rows = multiply(rows_before, e, change);
+        std::vector<double> moved_rows = multiply(rows, e, r);
+        for (std::size_t i = 0; i < n; ++i) r[i] -= change[i];
+        const std::vector<double> first = multiply(rows_before, e, r);
+        for (std::size_t i = 0; i < n; ++i) {
+            const double c = std::max(e.capacity[i * bands_ + b], 1e-300);
+            const double outside = to_outside(rows, e, i) - to_outside(rows_before, e, i);
+            change[i] = kept_rows[i] / c;  // (50)
+            moved_rows[i] =
+                (moved_rows[i] - first[i] + outside * now.enclosure.environment[b]) / c +
+                lit[i];  // (66)
+        }
+        set_linear(before, rows_before, change, b, of_sources_.data());
+        set_linear(before, rows_before, lit, b, of_lit_.data());
+        set_linear(before, rows_before, moved_rows, b, far_.data());
     }
 }
 
@@ -121,6 +155,15 @@ bool GatherChange::meets(const mesh::Ray& ray) const {
 bool GatherChange::inside(Point x) const {
     return std::ranges::any_of(bodies_, [&](const mesh::Body& body) {
         return glm::distance(x, body.centre) <= body.radius;
+    });
+}
+
+bool GatherChange::far(Point x, double size) const {
+    return std::ranges::all_of(bodies_, [&](const mesh::Body& body) {
+        const double d = glm::distance(x, body.centre), sine = body.radius / d;
+        if (!(sine < 1.0)) return false;
+        const double hidden = 0.5 * (1.0 - std::sqrt(1.0 - sine * sine)), ratio = size / d;
+        return hidden * ratio * ratio / 8.0 <= may_miss_;
     });
 }
 
@@ -155,6 +198,12 @@ bool GatherChange::gather(const GatherScene& now, const GatherPoint& point, cons
     if (!kept || inside(point.x)) return false;
     const std::uint32_t element = element_at(point);
     if (element == none || near_body(bodies_, point.x, 0.5 * size_of(element))) return false;
+    if (far(point.x, size_of(element))) {
+        for (std::size_t b = 0; b < bands_; ++b)
+            incident[b] = {std::max(0.0, kept[2 * b] + far_[element * bands_ + b].at(point.x)),
+                           kept[2 * b + 1]};
+        return true;
+    }
     const GatherScene& before = point.on_surface() ? *before_.on_patches : *before_.in_zones;
     const std::uint64_t stream =
         point.on_surface() ? seed : hash_seed(seed, static_cast<std::uint64_t>(kept[2 * bands_]));
@@ -172,8 +221,8 @@ bool GatherChange::gather(const GatherScene& now, const GatherPoint& point, cons
     if (static_cast<double>(met.size()) > most_met * count) return false;
     const double others = 1.0 - static_cast<double>(met.size()) / count;
     for (std::size_t b = 0; b < bands_; ++b) {
-        incident[b].mean = kept[2 * b] + others * change_[element * bands_ + b].at(point.x) +
-                           change_[change_.size() / 2 + element * bands_ + b].at(point.x);  // (49)
+        incident[b].mean = kept[2 * b] + others * of_sources_[element * bands_ + b].at(point.x) +
+                           of_lit_[element * bands_ + b].at(point.x);  // (49)
         incident[b].half_difference = kept[2 * b + 1];
     }
     thread_local std::vector<double> found, lost;

@@ -27,6 +27,7 @@ struct KeptLight {
     // r of the elements, of patches less what they reflect of direct light; after these H from what
     // patches reflect of it ([element * bands + band], twice) [W/m^2/sr].
     std::vector<double> gathered_from;
+    std::vector<double> lit_in_middles;  // incident_lit.h
     Importance::Scale scale;
     PlaceMemory direct;   // H^A at every place it was asked for
     PlaceMemory gathers;  // mean and half difference a band, the seed's number
@@ -47,19 +48,37 @@ bool fits(const KeptLight& kept, const Enclosure& enclosure);
 std::vector<double> gathered_from(const CoarseSolution& coarse,
                                   const std::vector<double>& incident_direct);
 
+// The bodies of both, those of the first first.
+std::vector<mesh::Body> bodies_of(const Enclosure& before, const Enclosure& now);
+
+// H from lit patches of each element after bodies have moved (incident_lit.h).
+std::vector<double> moved_incident_lit(const KeptLight& before, const Enclosure& enclosure,
+                                       const Forest& forest, const Elements& elements,
+                                       const LitPatches& lit);
+
 // Gathers in a scene after its bodies have moved, from those before.
 //
 // Equation: with D rays, of which `m` meet a body's sphere before or now,
 //     H = H⁰ + (1 − m/D) ΔH + P − P⁰ + (1/D) Σ_m (L − L⁰)                              (49)
-//     ΔH_i = Σ_j S_ij⁰ (r_j − r_j⁰) / c_i
+//     ΔH_i = Σ_j S_ij⁰ (r_j − r_j⁰) / c_i                                               (50)
+//   and far from all bodies
+//     H_i = H_i⁰ + Σ_j (S_ij r_j − S_ij⁰ r_j⁰) / c_i + P − P⁰                           (66)
 // Symbols: L⁰ what a ray found before, L what it finds now.
 //   The sum over rays is exact. ΔH, what other rays find more or less since all light has changed a
 //   little, and P, what lit patches bring, are the coarse solution's, linear in its elements.
+//   Far: where a body hides the share f of all directions, at a distance d from an element of size
+//   h, what is linear over the element misses about f (h/d)²/8; it may miss a tenth of the goal.
 class GatherChange {
   public:
-    // `gathered_from`: as that of KeptLight, now. All arguments must outlive this.
-    GatherChange(const KeptLight& before, const Enclosure& enclosure,
-                 std::vector<double> gathered_from);
+    // The scene now: its rows of each distinct extinction, and `gathered_from` as that of
+    // KeptLight.
+    struct Now {
+        const Enclosure& enclosure;
+        const std::vector<ExchangeAreas>& areas;
+        std::vector<double> gathered_from;
+    };
+    // `error`: the solve's goal. Keeps `before`.
+    GatherChange(const KeptLight& before, const Now& now, double error);
 
     // H at a point, one value a band; false where it is to be gathered anew: nothing was kept, or a
     // body is within half an element's size, or met by more than two fifths of the rays.
@@ -70,13 +89,16 @@ class GatherChange {
   private:
     bool meets(const mesh::Ray& ray) const;
     bool inside(Point x) const;
+    bool far(Point x, double size) const;
     // The element that a gather's point lies in.
     std::uint32_t element_at(const GatherPoint& point) const;
 
     const KeptLight& before_;
     std::vector<mesh::Body> bodies_;  // before and now
-    std::vector<Affine> change_;      // ΔH [element * bands + band]
+    // ΔH, P − P⁰ and the whole change far from bodies [element * bands + band].
+    std::vector<Affine> of_sources_, of_lit_, far_;
     std::size_t bands_;
+    double may_miss_;  // far from bodies, relative
 };
 
 }  // namespace tyndall::radiosity
