@@ -36,13 +36,6 @@ constexpr double coarser_goal = 4.0;
 // cost more than leaves.
 constexpr double thick_elements_share = 0.2;
 
-std::optional<ShadowBoundaries> shadow_boundaries(const Enclosure& enclosure,
-                                                  const SolveOptions& options) {
-    if (options.refinement != Refinement::aligned || !asks_for(options, "shadow_boundary"))
-        return {};
-    return ShadowBoundaries(enclosure, options.direct_light == DirectLightMode::closed_form);
-}
-
 // The loop's state, step by step; each step leaves something that a valid solution can be made of.
 class Loop {
   public:
@@ -115,14 +108,20 @@ class Loop {
 
         IndirectRefiner indirect(*enclosure_, mesh_, coarse.elements(), options_.gather_rays,
                                  options_.seed);
+        if (kept_.moved) indirect.begin_with(kept_.moved->settled);
         gather(coarse, lit, importance,
                adaptive() && asks_for(options_, "indirect") ? indirect_share * goal : 1e300,
                indirect);
         Solution solution =
             collect(coarse, [&](auto leaf, std::size_t b) { return indirect.field(leaf, b); });
         end_pass("indirect light");
+        // Bodies that have moved change little of the coarse solution's error.
+        const std::vector<double> carried =
+            kept_.moved ? kept_.moved->coarse_errors
+                        : coarse_errors(mesh_, direct_, leaf_light_, coarse, solution.indirect);
+        if (kept_.keep) kept_.keep->coarse_errors = carried;
         const LeafErrors errors = leaf_errors(*enclosure_, mesh_, direct_, indirect, leaf_light_,
-                                              coarse, solution.indirect, options_.radiance);
+                                              coarse, carried, options_.radiance);
         estimate_errors(errors, camera_, solution);
         solution.report =
             solve_report(*enclosure_, coarse, incident_direct_, light_, options_,
@@ -180,7 +179,7 @@ class Loop {
         direct_.update();
         direct_.sample_means();
         mesh_.samples().take_from(nullptr);
-        if (kept_.keep) keep(coarse, in_zones, sources, lit);
+        if (kept_.keep) keep(coarse, in_zones, sources, lit, indirect);
     }
 
     // r and H of the elements that changes are told by (KeptLight::gathered_from).
@@ -191,7 +190,8 @@ class Loop {
     }
 
     void keep(const CoarseSolution& coarse, const Fields& in_zones,
-              const IndirectSources& on_patches, const LitPatches& lit) {
+              const IndirectSources& on_patches, const LitPatches& lit,
+              const IndirectRefiner& indirect) {
         KeptLight& kept = *kept_.keep;
         light_.keep_in(nullptr);
         kept.elements = coarse.elements();
@@ -199,6 +199,7 @@ class Loop {
         kept.gathered_from = change_sources(coarse);
         kept.lit_in_middles = lit_in_middles(*enclosure_, mesh_.forest(), coarse.elements(), lit);
         kept.scale = scale_;
+        kept.settled = indirect.settled();
         kept.finish(enclosure_, mesh_.forest(), in_zones, on_patches.fields, on_patches.detail);
     }
 

@@ -97,9 +97,17 @@ double leaf_error(const Solution& s, const LeafErrors& errors, Node leaf, double
 
 }  // namespace
 
+std::vector<double> coarse_errors(const ElementMesh& mesh, DirectRefiner& direct,
+                                  const LeafLight& leaf_light, const CoarseSolution& coarse,
+                                  const Fields& gathered) {
+    direct.light_middles();
+    return coarse.carried(level_difference(mesh, direct, leaf_light, coarse, gathered));
+}
+
 LeafErrors leaf_errors(const Enclosure& enclosure, ElementMesh& mesh, DirectRefiner& direct,
                        IndirectRefiner& indirect, LeafLight& leaf_light,
-                       const CoarseSolution& coarse, const Fields& gathered, Radiance radiance) {
+                       const CoarseSolution& coarse, const std::vector<double>& coarse_errors,
+                       Radiance radiance) {
     const Forest& forest = mesh.forest();
     const Elements& e = coarse.elements();
     const std::size_t bands = enclosure.bands;
@@ -110,8 +118,6 @@ LeafErrors leaf_errors(const Enclosure& enclosure, ElementMesh& mesh, DirectRefi
     errors.patch_elements.resize(forest.patch_count());
     errors.patch_direct.resize(forest.patch_count());
     direct.light_middles();
-    const auto carried =
-        coarse.carried(level_difference(mesh, direct, leaf_light, coarse, gathered));
     // Squares of what leaves hold too coarsely, of direct and of indirect light.
     const auto fill = [&](auto leaf, std::uint32_t element) {
         double of_direct = square(direct.error(leaf)), of_indirect = square(indirect.error(leaf));
@@ -121,7 +127,7 @@ LeafErrors leaf_errors(const Enclosure& enclosure, ElementMesh& mesh, DirectRefi
             Affine noise = indirect.noise(leaf, b);
             noise = {whole_net * noise.gradient, whole_net * noise.constant};
             errors.gathers.at(leaf, b) = noise;
-            errors.coarse.at(leaf, b).constant = carried[element * bands + b];
+            errors.coarse.at(leaf, b).constant = coarse_errors[element * bands + b];
             of_direct += square(direct.mean_difference(leaf, b)) / static_cast<double>(bands);
             if (radiance == Radiance::linear) continue;
             of_direct += seen * variance(forest, leaf, leaf_light.direct(leaf, b));

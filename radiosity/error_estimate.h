@@ -17,18 +17,27 @@ struct LeafErrors {
     Fields gathers, coarse;
 };
 
-// Purpose: all of that, of the leaves of a mesh whose gathers are made. `gathered`: indirect light
-// of the leaves.
+// Purpose: the error that coarse elements have in what is gathered from them: H of each less the
+// mean over it of `gathered`, the leaves' indirect light, the level difference, and the difference
+// of two rules for the mean of direct light, sent on through the rows (CoarseSolution::carried)
+// [element * bands + band] [W/m^2/sr].
+// Cost: one more solution of the linear system, to 1 %.
+std::vector<double> coarse_errors(const ElementMesh& mesh, DirectRefiner& direct,
+                                  const LeafLight& leaf_light, const CoarseSolution& coarse,
+                                  const Fields& gathered);
+
+// Purpose: all of that, of the leaves of a mesh whose gathers are made; `coarse_errors`: of the
+// elements of `coarse`.
 //   elements: departures that refinement has left (DirectRefiner, IndirectRefiner), and the
 //     difference of two rules for the mean of direct light; where elements are constant, their own
 //     variation too
 //   gathers: half the difference of two halves of the rays, times 2^(−1/6)
-//   coarse: H of the coarse elements less the mean of `gathered` over them, the level difference,
-//     and the difference of the two rules, sent on through the rows (CoarseSolution::carried)
-// Cost: O(leaves) and one more solution of the linear system, to 1 %.
+//   coarse: those of the elements
+// Cost: O(leaves).
 LeafErrors leaf_errors(const Enclosure& enclosure, ElementMesh& mesh, DirectRefiner& direct,
                        IndirectRefiner& indirect, LeafLight& leaf_light,
-                       const CoarseSolution& coarse, const Fields& gathered, Radiance radiance);
+                       const CoarseSolution& coarse, const std::vector<double>& coarse_errors,
+                       Radiance radiance);
 
 // Fills in the errors of a solution's leaves (of x, from those of H), and the relative errors of
 // its report: of the solution, and of the picture where there is a view.

@@ -7,6 +7,10 @@
 namespace tyndall::radiosity {
 namespace {
 
+// Rows that a task makes. Much is copied and little computed: what a batch of tasks makes should fit
+// into a cache, or nearly.
+constexpr std::size_t longest_run = 4;
+
 using PlacedShare = InBands<glm::dvec4, 1>;
 using PlacedSums = PlacedShares<1>;
 
@@ -131,7 +135,7 @@ ExchangeAreas moved_rows(const Discretization& now, const RowsBefore& before,
     for (std::size_t i = 0; i < now.elements.size(); ++i) rows.push_back(ElementId(i));
     const PointSet points(options.rays, options.settings.point_set);
     const MovedRows moved(now, before, options, points, walked);
-    const std::size_t run = std::clamp<std::size_t>(rows.size() / 64, 1, 32);
+    const std::size_t run = std::clamp<std::size_t>(rows.size() / 64, 1, longest_run);
     make_row_batches(
         now, rows, options, [&](const Row& row) { append(areas, row, Precision::single_sums); },
         run, PlacedSums(now.elements.size() + 1),

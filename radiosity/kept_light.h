@@ -7,6 +7,7 @@
 #include "radiosity/coarse_solution.h"
 #include "radiosity/gather.h"
 #include "radiosity/importance.h"
+#include "radiosity/refine.h"
 
 namespace tyndall::radiosity {
 
@@ -28,6 +29,8 @@ struct KeptLight {
     // patches reflect of it ([element * bands + band], twice) [W/m^2/sr].
     std::vector<double> gathered_from;
     std::vector<double> lit_in_middles;  // incident_lit.h
+    std::vector<double> coarse_errors;   // error_estimate.h
+    IndirectRefiner::Ends settled;
     Importance::Scale scale;
     PlaceMemory direct;   // H^A at every place it was asked for
     PlaceMemory gathers;  // mean and half difference a band, the seed's number

@@ -132,6 +132,15 @@ class IndirectRefiner {
     RefineResult refine_patches(IndirectSources sources, const Importance& importance, double goal,
                                 const RefineLimits& limits, const ProgressCallback& progress);
 
+    // The nodes where a descent has ended, by node.
+    struct Ends {
+        std::vector<bool> zones, patches;
+    };
+    Ends settled() const { return {zones_.flags, patches_.flags}; }
+    // A descent in the same forest before bodies moved ended there: this one goes on only where the
+    // error has grown, not where it is about what an element may have.
+    void begin_with(const Ends& before) { before_ = &before; }
+
     // The linear function of a leaf: its own, or that of the settled element above it.
     Affine field(ZoneId zone, std::size_t band);
     Affine field(PatchId patch, std::size_t band);
@@ -158,6 +167,13 @@ class IndirectRefiner {
     Settled& settled_of(PatchId) { return patches_; }
     const Settled& settled_of(ZoneId) const { return zones_; }
     const Settled& settled_of(PatchId) const { return patches_; }
+    bool ended_before(ZoneId zone) const { return before_ && is_set(before_->zones, zone.value); }
+    bool ended_before(PatchId patch) const {
+        return before_ && is_set(before_->patches, patch.value);
+    }
+    static bool is_set(const std::vector<bool>& flags, std::size_t k) {
+        return k < flags.size() && flags[k];
+    }
     template <class Node>
     Node settled_above(Node node) const;
     template <class Node>
@@ -191,6 +207,7 @@ class IndirectRefiner {
     PointSet on_surfaces_, in_zones_;
     std::uint64_t seed_;
     Settled zones_, patches_;
+    const Ends* before_ = nullptr;
 };
 
 }  // namespace tyndall::radiosity

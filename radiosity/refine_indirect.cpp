@@ -25,6 +25,9 @@ constexpr double shown_share = 0.02;
 // A departure joins three samples of equal variance with weights 1, −1/2, −1/2.
 const double departure_noise = std::sqrt(1.5);
 
+// Of a squared error: what it has grown by where a descent that ended goes on.
+constexpr double grown = 2.0;
+
 // Multiple scattering is smooth: the descent starts this many levels above the solved zones.
 constexpr int levels_above = 1;
 
@@ -146,7 +149,8 @@ RefineResult IndirectRefiner::refine(std::vector<Node> frontier, IndirectSources
             const double x = scatter(node) * error;
             const double share =
                 open_share(enclosure_, forest, node, 0) * importance.of(node) * x * x;
-            if (descend && share > threshold && forest[node].longest_edge > limits.smallest_edge &&
+            const double allowed = (ended_before(node) ? grown : 1.0) * threshold;
+            if (descend && share > allowed && forest[node].longest_edge > limits.smallest_edge &&
                 (!forest.is_leaf(node) || room_for_more(limits))) {
                 if (forest.is_leaf(node)) bisect(node, edge);
                 const Node first = forest[node].first_child;
@@ -200,7 +204,7 @@ void IndirectRefiner::divide(const std::vector<PatchId>& patches, const RefineLi
 template <class Node>
 Node IndirectRefiner::settled_above(Node node) const {
     const std::vector<bool>& flags = settled_of(node).flags;
-    while (!(node.value < flags.size() && flags[node.value])) node = mesh_.forest()[node].parent;
+    while (!is_set(flags, node.value)) node = mesh_.forest()[node].parent;
     return node;
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "mesh/walk.h"
+#include "radiosity/indicators.h"
 #include "radiosity/light_sources.h"
 
 namespace tyndall::radiosity {
@@ -357,6 +358,13 @@ ShadowSection ShadowBoundaries::section(const ShadowSheet& sheet, std::span<cons
     // The polygon touches with an edge or corner alone.
     if (s.count < count - 1 || !(s.share > 1e-6)) s.crosses = false;
     return s;
+}
+
+std::optional<ShadowBoundaries> shadow_boundaries(const Enclosure& enclosure,
+                                                  const SolveOptions& options) {
+    if (options.refinement != Refinement::aligned || !asks_for(options, "shadow_boundary"))
+        return {};
+    return ShadowBoundaries(enclosure, options.direct_light == DirectLightMode::closed_form);
 }
 
 }  // namespace tyndall::radiosity

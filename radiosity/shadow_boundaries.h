@@ -17,11 +17,13 @@
 #include <array>
 #include <glm/geometric.hpp>
 #include <map>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "mesh/visible_polygon.h"
 #include "radiosity/enclosure.h"
+#include "radiosity/options.h"
 
 namespace tyndall::radiosity {
 
@@ -96,5 +98,9 @@ class ShadowBoundaries {
     std::vector<std::size_t> begin_;  // of each base tet in touching_
     std::vector<std::uint32_t> touching_;
 };
+
+// Those that elements are to be cut along by these options; none where they are not to be.
+std::optional<ShadowBoundaries> shadow_boundaries(const Enclosure& enclosure,
+                                                  const SolveOptions& options);
 
 }  // namespace tyndall::radiosity
