@@ -46,6 +46,7 @@ CoarseSolution::CoarseSolution(const Enclosure& enclosure, const Forest& forest,
     check_solver(options);
     check_solver_size(solver_named(options.solver), elements_.size());
     if (on_the_fly()) at_first_ = forest;
+    if (kept) guess_.assign(kept->sent.begin(), kept->sent.end());
     std::vector<std::size_t> distinct;  // bands that have rows of their own
     for (std::size_t band = 0; band < enclosure.bands; ++band) {
         const std::size_t same = first_of_extinction(enclosure, band);
@@ -339,12 +340,15 @@ bool CoarseSolution::add_band(std::size_t b, const std::vector<double>& incident
         source[i] = emission(i, b) - split_emission(i, b) +
                     elements_.scatter[i * bands + b] * (sent + arrived[i] + from_outside[i]);
     }
+    std::vector<double> guess;
+    for (std::size_t i = 0; i < n && !guess_.empty(); ++i) guess.push_back(guess_[i * bands + b]);
     const SolverResult result = solve_band(b, source, solver_named(options_.solver),
                                            {.tolerance = options_.solver_tolerance,
                                             .iterations = options_.solver_iterations,
                                             .over_relaxation = options_.over_relaxation,
                                             .overshooting = options_.overshooting,
-                                            .ambient = options_.ambient});
+                                            .ambient = options_.ambient,
+                                            .guess = guess});
     add_to_report(result, solved.report);
     for (std::size_t i = 0; i < n; ++i) {
         const double capacity = elements_.capacity[i * bands + b];
@@ -367,14 +371,11 @@ std::vector<double> CoarseSolution::carried(const std::vector<double>& departure
         // An error of the error of 1 % is enough. By GMRES, whatever solves for the light: the same
         // residual of another solver may be another error.
         const SolverResult solved =
-            on_the_fly()
-                ? solve_band(b, source, solver_named(options_.solver),
-                             {.tolerance = 0.01,
-                              .iterations = options_.solver_iterations,
-                              .overshooting = options_.overshooting,
-                              .ambient = true})
-                : solve_band(b, source, solver_named("gmres"),
-                             {.tolerance = 0.01, .iterations = options_.solver_iterations});
+            solve_band(b, source, solver_named(on_the_fly() ? options_.solver : "gmres"),
+                       {.tolerance = 0.01,
+                        .iterations = options_.solver_iterations,
+                        .overshooting = on_the_fly() && options_.overshooting,
+                        .ambient = on_the_fly()});
         for (std::size_t i = 0; i < n; ++i)
             if (const double c = elements_.capacity[i * bands + b]; c > 0.0)
                 result[i * bands + b] = solved.received[i] / c;

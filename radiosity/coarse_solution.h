@@ -16,6 +16,9 @@ struct NamedSolver;
 struct KeptRows {
     Discretization discretization;
     const std::vector<ExchangeAreas>& areas;
+    // What their solution sent out, of patches less what they reflect of direct light, to begin
+    // with ([element * bands + band]) [W/m^2/sr].
+    std::span<const double> sent;
 };
 
 class CoarseSolution {
@@ -126,6 +129,7 @@ class CoarseSolution {
     std::vector<std::vector<double>> outside_;
     mutable std::vector<double> closure_;  // of each of areas_, of rows made so far
     Solved solved_;
+    std::vector<double> guess_;  // KeptRows::sent; empty: none
     mutable std::size_t rays_ = 0;
     mutable std::atomic<std::size_t> lost_rays_ = 0;
 };

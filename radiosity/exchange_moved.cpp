@@ -7,8 +7,8 @@
 namespace tyndall::radiosity {
 namespace {
 
-// Rows that a task makes. Much is copied and little computed: what a batch of tasks makes should fit
-// into a cache, or nearly.
+// Rows that a task makes. Much is copied and little computed: what a batch of tasks makes should
+// fit into a cache, or nearly.
 constexpr std::size_t longest_run = 4;
 
 using PlacedShare = InBands<glm::dvec4, 1>;
@@ -26,27 +26,35 @@ class MovedRows {
           walked_(walked) {}
 
     void row(ElementId id, PlacedSums& sums, FinishedRows& rows) const {
-        const bool linear = options_.radiance == Radiance::linear;
-        if (!add_corrected(id.value, sums)) {
+        if (!add_changes(id.value, sums)) {
             walked_ += options_.rays;
             row_now_.row(id, sums, std::span(&rows, 1));
             return;
         }
+        // Kept entries and changes are both in the order of columns.
+        std::size_t next = before_.areas.starts[id.value];
+        const std::size_t end = before_.areas.starts[id.value + 1];
         sums.take([&](std::uint32_t column, const PlacedShare& of_band) {
-            const glm::dvec4& sum = of_band.of[0];
+            for (; next < end && before_.areas.columns[next] < column; ++next) copy(next, rows);
+            glm::dvec4 sum = of_band.of[0];
+            if (next < end && before_.areas.columns[next] == column) sum += kept(next++);
             if (!(sum.x > 0.0)) return;
             rows.columns.push_back(column);
             rows.values.push_back(sum.x);
-            if (!linear) return;
+            if (!linear()) return;
             const Point place(sum.y, sum.z, sum.w);
             rows.moments.push_back(place - sum.x * (row_now_.centre(column) - row_now_.middle()));
         });
+        for (; next < end; ++next) copy(next, rows);
         rows.ends.push_back(rows.columns.size());
     }
 
   private:
-    // The row in m^2, with the places of its deposits; false where it is to be walked anew.
-    bool add_corrected(std::size_t i, PlacedSums& sums) const {
+    bool linear() const { return options_.radiance == Radiance::linear; }
+
+    // What the row changes by, with the places of the deposits; false where it is to be walked
+    // anew.
+    bool add_changes(std::size_t i, PlacedSums& sums) const {
         const Elements& e = now_.elements;
         if (e.is_patch(i) && mesh::on_body(now_.enclosure.mesh,
                                            FacetId(now_.forest.base_facet_side(e.patches[i]) / 2)))
@@ -64,7 +72,6 @@ class MovedRows {
             met.push_back(k);
         }
         if (!(count > 0.0)) return false;
-        add_kept(i, sums);
         const double scale = row_now_.capacity(i, 0) / count;
         walked_ += met.size();
         for (const std::size_t k : met) {
@@ -81,17 +88,25 @@ class MovedRows {
         });
     }
 
-    void add_kept(std::size_t i, PlacedSums& sums) const {
+    // An entry of the row before, and the sum of its deposits' places.
+    glm::dvec4 kept(std::size_t k) const {
         const ExchangeAreas& areas = before_.areas;
-        for (std::size_t k = areas.starts[i]; k < areas.starts[i + 1]; ++k) {
-            const auto column = areas.columns[k];
-            const double value = areas.value(k);
-            Point place(0.0);
-            if (!areas.moments.empty())
-                place = Point(areas.moments[k]) +
-                        value * (row_before_.centre(column) - row_before_.middle());
-            sums.add(column, placed(glm::dvec4(value, place)));
-        }
+        const double value = areas.value(k);
+        if (areas.moments.empty()) return {value, 0.0, 0.0, 0.0};
+        const Point centre = row_before_.centre(areas.columns[k]) - row_before_.middle();
+        return {value, Point(areas.moments[k]) + value * centre};
+    }
+
+    void copy(std::size_t k, FinishedRows& rows) const {
+        const ExchangeAreas& areas = before_.areas;
+        const auto column = areas.columns[k];
+        const double value = areas.value(k);
+        if (!(value > 0.0)) return;
+        rows.columns.push_back(column);
+        rows.values.push_back(value);
+        if (linear())
+            rows.moments.push_back(Direction(areas.moments[k]) +
+                                   value * (row_before_.centre(column) - row_now_.centre(column)));
     }
 
     static PlacedShare placed(const glm::dvec4& share) {

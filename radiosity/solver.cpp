@@ -12,8 +12,14 @@ std::vector<double> reflect(const LinearProblem& problem, std::span<const double
 }
 
 std::vector<double> left_of(const LinearProblem& problem, std::span<const double> radiance) {
-    std::vector<double> left = reflect(problem, radiance);
-    for (std::size_t i = 0; i < left.size(); ++i) left[i] += problem.source[i] - radiance[i];
+    return left_of(problem, radiance, multiply(problem.areas, problem.elements, radiance));
+}
+
+std::vector<double> left_of(const LinearProblem& problem, std::span<const double> radiance,
+                            std::span<const double> received) {
+    std::vector<double> left(radiance.size());
+    for (std::size_t i = 0; i < left.size(); ++i)
+        left[i] = problem.source[i] + problem.scatter_over_capacity(i) * received[i] - radiance[i];
     return left;
 }
 
@@ -24,18 +30,20 @@ double norm_of(std::span<const double> values) {
 }
 
 SolverResult finish(const LinearProblem& problem, const SolverOptions& options,
-                    std::vector<double> radiance, std::size_t iterations, SolverHistory& history) {
+                    std::vector<double> radiance, std::size_t iterations, SolverHistory& history,
+                    std::vector<double> received) {
     SolverResult result;
     const bool numbers =
         std::all_of(radiance.begin(), radiance.end(), [](double x) { return std::isfinite(x); });
-    if (!numbers) radiance.assign(radiance.size(), 0.0);
+    if (!numbers) {
+        radiance.assign(radiance.size(), 0.0);
+        received.clear();
+    }
     result.radiance = std::move(radiance);
     result.iterations = iterations;
-    result.received = multiply(problem.areas, problem.elements, result.radiance);
-    std::vector<double> left(result.radiance.size());
-    for (std::size_t i = 0; i < left.size(); ++i)
-        left[i] = problem.source[i] + problem.scatter_over_capacity(i) * result.received[i] -
-                  result.radiance[i];
+    result.received = received.empty() ? multiply(problem.areas, problem.elements, result.radiance)
+                                       : std::move(received);
+    const std::vector<double> left = left_of(problem, result.radiance, result.received);
     result.residual = norm_of(left) / history.source_norm();
     const bool grows = norm_of(result.radiance) > diverged * history.source_norm();
     result.converged = numbers && !grows && result.residual <= options.tolerance;

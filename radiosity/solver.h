@@ -42,6 +42,8 @@ struct SolverOptions {
     // shoot before the largest is looked for again; 1: that one alone [-].
     double shooters = 0.7;
     ProgressCallback progress{};  // after every step of the history
+    // x to begin with, one an element; empty: 0. GMRES alone uses it.
+    std::span<const double> guess{};
 };
 
 struct SolverResult {
@@ -61,8 +63,10 @@ using Solver = SolverResult (*)(const LinearProblem&, const SolverOptions&);
 // parallel.
 std::vector<double> reflect(const LinearProblem& problem, std::span<const double> radiance);
 
-// ρ = s + a/c S x − x. Cost: the same.
+// ρ = s + a/c S x − x. Cost: the same; none where `received`, S x, is known.
 std::vector<double> left_of(const LinearProblem& problem, std::span<const double> radiance);
+std::vector<double> left_of(const LinearProblem& problem, std::span<const double> radiance,
+                            std::span<const double> received);
 
 // |ρ| / |s| from which on an iteration has gone wrong for good; and |x| / |s| that no scene has
 // that absorbs anything: rows in single precision close to 1e-7, and where nothing is lost their
@@ -72,9 +76,11 @@ inline constexpr double diverged = 1e6;
 double norm_of(std::span<const double> values);
 
 // What all solvers end with: S x, the residual measured, whether it is as small as asked for. Where
-// a solver has failed so far that x is no number, x is 0 and not converged. Cost: one pass.
+// a solver has failed so far that x is no number, x is 0 and not converged. `received`: S x, where
+// a solver knows it. Cost: one pass without.
 SolverResult finish(const LinearProblem& problem, const SolverOptions& options,
-                    std::vector<double> radiance, std::size_t iterations, SolverHistory& history);
+                    std::vector<double> radiance, std::size_t iterations, SolverHistory& history,
+                    std::vector<double> received = {});
 
 // The result where s is 0: nothing shines.
 SolverResult dark(const LinearProblem& problem);

@@ -80,6 +80,16 @@ SolverResult solve_gmres(const LinearProblem& problem, const SolverOptions& opti
     SolverHistory history(problem, options);
     const auto n = static_cast<Eigen::Index>(problem.elements.size());
     Vector x = Vector::Zero(n), left = Eigen::Map<const Vector>(problem.source.data(), n);
+    std::vector<double> received;  // S x
+    const auto look_at = [&] {
+        received = multiply(problem.areas, problem.elements, values_of(x));
+        const auto rest = left_of(problem, values_of(x), received);
+        left = Eigen::Map<const Vector>(rest.data(), n);
+    };
+    if (!options.guess.empty()) {
+        x = Eigen::Map<const Vector>(options.guess.data(), n);
+        look_at();
+    }
     history.note(0, values_of(x), values_of(left));
     const double goal = 0.5 * options.tolerance * history.source_norm();
     std::size_t iterations = 0;
@@ -96,11 +106,11 @@ SolverResult solve_gmres(const LinearProblem& problem, const SolverOptions& opti
             more = more && best.left.norm() > goal;
         }
         x += change;
-        const auto rest = left_of(problem, values_of(x));
-        left = Eigen::Map<const Vector>(rest.data(), n);
+        look_at();
         if (!(left.norm() < (1.0 - 1e-3) * before)) break;  // nothing more is to be gained
     }
-    SolverResult result = finish(problem, options, {x.begin(), x.end()}, iterations, history);
+    SolverResult result =
+        finish(problem, options, {x.begin(), x.end()}, iterations, history, std::move(received));
     result.stopped = stopped;
     return result;
 }
