@@ -20,7 +20,7 @@ struct AnimateOptions {
     bool resume = false;
 };
 
-constexpr const char* examples =
+constexpr const char* animate_examples =
     R"(  tyndall animate examples/scenes/sunset.toml -o sunset/
   tyndall animate sunset.toml -o sunset/ --frames 12:23 --resume
   ffmpeg -framerate 24 -i sunset/frames/%04d.png -pix_fmt yuv420p sunset.mp4)";
@@ -103,9 +103,9 @@ int animate(const AnimateOptions& options, const CommonFlags& flags) {
 
 void add_animate_command(Shell& shell) {
     const auto options = std::make_shared<AnimateOptions>();
-    auto command =
-        shell.add_command("animate", "The frames of a scene whose keys change in time", examples,
-                          [options](const CommonFlags& flags) { return animate(*options, flags); });
+    auto command = shell.add_command(
+        "animate", "The frames of a scene whose keys change in time", animate_examples,
+        [options](const CommonFlags& flags) { return animate(*options, flags); });
     add_seed_flag(command, shell.flags());
     add_set_flag(command, shell.flags());
     command.option("SCENE", options->scene, "Scene file with an [animation]")

@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-std::string text_of(const Json& json) {
+std::string frames_text(const Json& json) {
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
@@ -33,7 +33,7 @@ Json json_of(std::size_t frame, const FrameRecord& record) {
             {"warnings", record.warnings}};
 }
 
-FrameRecord record_of(const Json& json) {
+FrameRecord frame_record_of(const Json& json) {
     FrameRecord record{json.at("changed"),     json.at("done"),
                        json.at("cpu_seconds"), json.at("picture_cpu_seconds"),
                        std::nullopt,           json.at("estimated_error"),
@@ -81,7 +81,8 @@ void AnimationRecord::read() {
         const Json json = Json::parse(mesh::read_file(folder_ / "report.json"));
         if (json.at("key") != key_) return;
         std::map<std::size_t, FrameRecord> frames;
-        for (const Json& frame : json.at("frames")) frames[frame.at("frame")] = record_of(frame);
+        for (const Json& frame : json.at("frames"))
+            frames[frame.at("frame")] = frame_record_of(frame);
         for (const Json& units : json.at("units")) units_.push_back(units_of(units));
         if (json.at("white").is_number()) white = json.at("white").get<double>();
         frames_ = std::move(frames);
@@ -127,7 +128,7 @@ std::string AnimationRecord::text(const RunFacts& facts, std::size_t frames) con
               {"frames", Json::array()}};
     for (const auto& units : units_) json["units"].push_back(json_of(units));
     for (const auto& [frame, record] : frames_) json["frames"].push_back(json_of(frame, record));
-    return text_of(json);
+    return frames_text(json);
 }
 
 void AnimationRecord::write(const RunFacts& facts, std::size_t frames) const {

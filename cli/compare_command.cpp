@@ -29,13 +29,13 @@ struct CompareOptions {
     std::optional<double> max_rmse, max_bias, max_block4, max_block16;
 };
 
-struct Side {
+struct ComparedPicture {
     fs::path path;
     std::size_t width = 0, height = 0;
     render::Layer layer;
 };
 
-constexpr const char* examples =
+constexpr const char* compare_examples =
     R"(  tyndall compare out/ reference.pfm
   tyndall compare out/image.exr direct.pfm --layer direct_single --difference off.png
   tyndall compare out/ reference.pfm --region 40,0,64,48
@@ -56,7 +56,7 @@ fs::path picture_file(const std::string& given) {
     return picture;
 }
 
-Side load(const std::string& given, const std::string& layer) {
+ComparedPicture load(const std::string& given, const std::string& layer) {
     const auto path = picture_file(given);
     const auto image = render::read_image(path);
     // A PFM file holds one layer without a name: it is taken for the one that is asked for.
@@ -69,7 +69,7 @@ Side load(const std::string& given, const std::string& layer) {
 }
 
 // What of it is to be compared: "left,top,width,height" in pixels.
-void cut(Side& side, const std::string& text) {
+void cut(ComparedPicture& side, const std::string& text) {
     const auto n = count_list(text, 4, "--region", "left,top,width,height in pixels");
     const render::Region region{n[0], n[1], n[2], n[3]};
     side.layer = render::region_of(side.width, side.height, side.layer, region);
@@ -77,7 +77,7 @@ void cut(Side& side, const std::string& text) {
     side.height = region.height;
 }
 
-nlohmann::ordered_json as_json(const Side& picture, const Side& reference,
+nlohmann::ordered_json as_json(const ComparedPicture& picture, const ComparedPicture& reference,
                                const render::PictureError& error) {
     return {{"picture", picture.path.string()},
             {"reference", reference.path.string()},
@@ -98,7 +98,8 @@ nlohmann::ordered_json as_json(const Side& picture, const Side& reference,
             {"negative", error.negative}};
 }
 
-std::string as_text(const Side& picture, const Side& reference, const render::PictureError& error) {
+std::string as_text(const ComparedPicture& picture, const ComparedPicture& reference,
+                    const render::PictureError& error) {
     auto text =
         fmt::format("picture       {}, layer {}, {} x {}, {} channel{}\n", picture.path.string(),
                     picture.layer.name, picture.width, picture.height, picture.layer.channels,
@@ -136,7 +137,8 @@ std::string verdict(const CompareOptions& options, const render::PictureError& e
     return text;
 }
 
-void write_difference(const CompareOptions& options, const Side& picture, const Side& reference) {
+void write_difference(const CompareOptions& options, const ComparedPicture& picture,
+                      const ComparedPicture& reference) {
     const double range = options.difference_range
                              ? *options.difference_range
                              : render::difference_range(picture.layer, reference.layer);
@@ -262,7 +264,7 @@ int compare_solution_files(const CompareOptions& options, const CommonFlags& fla
 void add_compare_command(Shell& shell) {
     const auto options = std::make_shared<CompareOptions>();
     auto command = shell.add_command(
-        "compare", "Errors of a picture, or of a solution, against a reference", examples,
+        "compare", "Errors of a picture, or of a solution, against a reference", compare_examples,
         [options](const CommonFlags& flags) {
             return wants_solutions(*options) ? compare_solution_files(*options, flags)
                                              : compare_pictures(*options, flags);

@@ -45,7 +45,7 @@ _tyndall_place() {
 }
 )~";
 
-std::string action(const Completion& completion) {
+std::string bash_action(const Completion& completion) {
     if (completion.settings) return "_tyndall_keys";
     if (!completion.words.empty())
         return fmt::format("_tyndall_words {}",
@@ -55,13 +55,13 @@ std::string action(const Completion& completion) {
     return ":";
 }
 
-std::string case_of(const CommandDescription& command) {
+std::string bash_case(const CommandDescription& command) {
     const auto options = sorted_options(command);
     std::string text = fmt::format("    {})\n        case $before in\n", command.name);
     std::string flags, with_value = " ";
     for (const auto* option : options.values) {
         text += fmt::format("        {}) {} && return ;;\n", fmt::join(option->names, " | "),
-                            action(option->completion));
+                            bash_action(option->completion));
         for (const auto& name : option->names) with_value += name + " ";
     }
     for (const auto& option : command.options)
@@ -72,7 +72,7 @@ std::string case_of(const CommandDescription& command) {
     text +=
         fmt::format("        _tyndall_place {}\n        case $place in\n", in_quotes(with_value));
     for (std::size_t k = 0; k < options.places.size(); ++k)
-        text += fmt::format("        {}) {} ;;\n", k, action(options.places[k]->completion));
+        text += fmt::format("        {}) {} ;;\n", k, bash_action(options.places[k]->completion));
     return text + "        esac\n        ;;\n";
 }
 
@@ -103,7 +103,7 @@ _tyndall() {{
     case ${{COMP_WORDS[1]}} in
 )~",
         names);
-    for (const auto& command : program.commands) text += case_of(command);
+    for (const auto& command : program.commands) text += bash_case(command);
     return text + "    esac\n}\ncomplete -F _tyndall tyndall\n";
 }
 

@@ -7,7 +7,7 @@ namespace tyndall::cli {
 namespace {
 
 // Brackets and colons part what _arguments reads.
-std::string escaped(const std::string& text) {
+std::string zsh_escaped(const std::string& text) {
     std::string result;
     for (const char c : text) {
         if (c == '[' || c == ']' || c == ':' || c == '\\') result += '\\';
@@ -16,10 +16,11 @@ std::string escaped(const std::string& text) {
     return result;
 }
 
-std::string action(const Completion& completion) {
+std::string zsh_action(const Completion& completion) {
     if (completion.settings) return "_tyndall_keys";
     if (!completion.words.empty())
-        return fmt::format("({})", escaped(fmt::format("{}", fmt::join(completion.words, " "))));
+        return fmt::format("({})",
+                           zsh_escaped(fmt::format("{}", fmt::join(completion.words, " "))));
     if (!completion.extensions.empty())  // _files goes through folders by itself
         return fmt::format("_files -g \"*.({})\"", fmt::join(completion.extensions, "|"));
     return completion.folders ? "_files -/" : "";
@@ -27,10 +28,10 @@ std::string action(const Completion& completion) {
 
 std::string spec_of(const OptionDescription& option) {
     const bool valued = !option.value.empty();
-    const auto value = valued
-                           ? fmt::format(":{}:{}", escaped(option.value), action(option.completion))
-                           : std::string();
-    const auto help = "[" + escaped(option.help) + "]";
+    const auto value =
+        valued ? fmt::format(":{}:{}", zsh_escaped(option.value), zsh_action(option.completion))
+               : std::string();
+    const auto help = "[" + zsh_escaped(option.help) + "]";
     std::string text;
     for (const auto& name : option.names) {
         const auto others = option.repeatable ? std::string("*")
@@ -42,17 +43,17 @@ std::string spec_of(const OptionDescription& option) {
     return text;
 }
 
-std::string case_of(const CommandDescription& command) {
+std::string zsh_case(const CommandDescription& command) {
     std::string text = fmt::format("        {})\n            _arguments \\\n", command.name);
     const auto options = sorted_options(command);
     for (const auto* option : options.values) text += spec_of(*option);
     for (const auto* option : options.switches) text += spec_of(*option);
     std::size_t place = 0;
     for (const auto* option : options.places)
-        text +=
-            fmt::format("            {} \\\n",
-                        in_quotes(fmt::format("{}:{}:{}", ++place, escaped(option->names.front()),
-                                              action(option->completion))));
+        text += fmt::format(
+            "            {} \\\n",
+            in_quotes(fmt::format("{}:{}:{}", ++place, zsh_escaped(option->names.front()),
+                                  zsh_action(option->completion))));
     text.erase(text.size() - 3);  // the last " \"
     return text + "\n            ;;\n";
 }
@@ -63,7 +64,7 @@ std::string zsh_completion(const ProgramDescription& program) {
     std::string names, cases;
     for (const auto& command : program.commands) {
         names += fmt::format("        {}\n", in_quotes(command.name + ":" + command.purpose));
-        cases += case_of(command);
+        cases += zsh_case(command);
     }
     return fmt::format(
         R"~(#compdef tyndall

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cli/solution_bytes.h"
 #include "radiosity/exchange_methods.h"
 #include "radiosity/resources.h"
 #include "radiosity/start_elements.h"
@@ -24,10 +25,7 @@ constexpr double growth = 0.42;         // elements ~ error^-growth
 constexpr double gather_share = 0.85;   // of the indirect pass: time ~ rays^gather_share
 constexpr double entry_seconds = 6e-8;  // an entry of the rows costs in all solves together
 constexpr double entry_growth = 0.8;    // entries of a row ~ rays^entry_growth
-// Bytes that a leaf takes, and an entry: column and value, and a moment where elements are linear.
-constexpr double leaf_bytes = 800.0, leaf_band_bytes = 300.0;
-constexpr double entry_bytes = 8.0, moment_bytes = 12.0, smoothing_bytes = 37.0;
-constexpr double row_growth = 2.2;  // at the peak: rows are lists that grow by doubling
+constexpr double row_growth = 2.2;      // at the peak: rows are lists that grow by doubling
 constexpr double band_time = 0.18;  // that each further matrix of a walk takes, of the first one's
 constexpr double smoothing_time = 2.5;  // more than the rows themselves take
 

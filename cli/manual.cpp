@@ -17,7 +17,7 @@ unsigned code_point(const std::string& text, std::size_t& at) {
 
 // What troff would read as commands is none: backslashes, a dot or quote that begins a line. A
 // hyphen is a minus, which can be copied into a shell.
-std::string escaped(const std::string& text) {
+std::string troff_escaped(const std::string& text) {
     std::string result;
     for (std::size_t at = 0; at < text.size();) {
         const char c = text[at];
@@ -47,9 +47,9 @@ std::string escaped(const std::string& text) {
 std::string option_text(const OptionDescription& option) {
     std::string names;
     for (const auto& name : option.names)
-        names += fmt::format("{}\\fB{}\\fR", names.empty() ? "" : ", ", escaped(name));
-    if (!option.value.empty()) names += fmt::format(" \\fI{}\\fR", escaped(option.value));
-    return fmt::format(".TP\n{}\n{}{}\n", names, escaped(option.help),
+        names += fmt::format("{}\\fB{}\\fR", names.empty() ? "" : ", ", troff_escaped(name));
+    if (!option.value.empty()) names += fmt::format(" \\fI{}\\fR", troff_escaped(option.value));
+    return fmt::format(".TP\n{}\n{}{}\n", names, troff_escaped(option.help),
                        option.required ? " (required)" : "");
 }
 
@@ -57,8 +57,8 @@ std::string examples_text(const std::vector<std::string>& examples) {
     std::string text;
     for (const auto& example : examples) {
         const auto [line, comment] = example_of(example);
-        if (!comment.empty()) text += fmt::format("# {}\n", escaped(comment));
-        text += escaped(line) + "\n";
+        if (!comment.empty()) text += fmt::format("# {}\n", troff_escaped(comment));
+        text += troff_escaped(line) + "\n";
     }
     return text.empty() ? "" : fmt::format(".PP\n.EX\n{}.EE\n", text);
 }
@@ -67,19 +67,19 @@ std::string synopsis(const CommandDescription& command) {
     std::string text = fmt::format("\\fBtyndall {}\\fR", command.name);
     for (const auto& option : command.options)
         if (option.positional) {
-            const auto name = fmt::format("\\fI{}\\fR", escaped(option.names.front()));
+            const auto name = fmt::format("\\fI{}\\fR", troff_escaped(option.names.front()));
             text += option.required ? " " + name : " [" + name + "]";
         }
     for (const auto& option : command.options)
         if (!option.positional && option.required)
-            text += fmt::format(" \\fB{}\\fR \\fI{}\\fR", escaped(option.names.front()),
-                                escaped(option.value));
+            text += fmt::format(" \\fB{}\\fR \\fI{}\\fR", troff_escaped(option.names.front()),
+                                troff_escaped(option.value));
     return text + " [\\fIFLAGS\\fR]";
 }
 
 std::string command_text(const CommandDescription& command) {
-    std::string text = fmt::format(".SS {}\n{}\n.PP\n{}.\n", escaped(command.name),
-                                   synopsis(command), escaped(command.purpose));
+    std::string text = fmt::format(".SS {}\n{}\n.PP\n{}.\n", troff_escaped(command.name),
+                                   synopsis(command), troff_escaped(command.purpose));
     for (const auto& option : command.options)
         if (!option.common && option.names.back() != "--help") text += option_text(option);
     return text + examples_text(command.examples);
@@ -149,7 +149,7 @@ to walk through, a solution and a report.
 {3}.SH COMMON FLAGS
 Every command that has a use for one takes it.
 {4}{5})",
-        program.version, escaped(program.purpose), examples_text(program.examples), commands,
+        program.version, troff_escaped(program.purpose), examples_text(program.examples), commands,
         common_text(program), ending);
 }
 

@@ -13,7 +13,7 @@
 namespace tyndall::cli {
 namespace {
 
-constexpr std::array<std::string_view, 6> names{"x", "y", "z", "nx", "ny", "nz"};
+constexpr std::array<std::string_view, 6> column_names{"x", "y", "z", "nx", "ny", "nz"};
 constexpr std::string_view wanted = "Give x,y,z or x,y,z,nx,ny,nz";
 
 std::string_view trimmed(std::string_view text) {
@@ -32,7 +32,7 @@ std::vector<std::string_view> fields_of(std::string_view line) {
     }
 }
 
-std::optional<double> number(std::string_view text) {
+std::optional<double> number_in(std::string_view text) {
     if (text.starts_with('+')) text.remove_prefix(1);
     double value = 0.0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -75,15 +75,16 @@ class PointsParser {
 
     // Names instead of numbers: they must be those that are known.
     bool is_header(const std::vector<std::string_view>& fields) const {
-        if (std::any_of(fields.begin(), fields.end(), [](auto f) { return number(f).has_value(); }))
+        if (std::any_of(fields.begin(), fields.end(),
+                        [](auto f) { return number_in(f).has_value(); }))
             return false;
         for (std::size_t k = 0; k < fields.size(); ++k) {
             std::string lower(fields[k]);
             for (char& c : lower)
                 if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-            if (lower != names[k])
+            if (lower != column_names[k])
                 fail(fmt::format("column {} is \"{}\" instead of {}. {}.", k + 1, fields[k],
-                                 names[k], wanted));
+                                 column_names[k], wanted));
         }
         return true;
     }
@@ -91,10 +92,10 @@ class PointsParser {
     void add_row(const std::vector<std::string_view>& fields) {
         std::array<double, 6> values{};
         for (std::size_t k = 0; k < fields.size(); ++k) {
-            const auto value = number(fields[k]);
+            const auto value = number_in(fields[k]);
             if (!value || !std::isfinite(*value))
-                fail(fmt::format("{} is \"{}\", which is no finite number. Correct it.", names[k],
-                                 fields[k]));
+                fail(fmt::format("{} is \"{}\", which is no finite number. Correct it.",
+                                 column_names[k], fields[k]));
             values[k] = *value;
         }
         PointsFile::Row row{

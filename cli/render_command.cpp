@@ -27,7 +27,7 @@ struct PictureOptions {
     std::optional<double> error, time, exposure, white;
 };
 
-constexpr const char* examples =
+constexpr const char* render_examples =
     R"(  tyndall render out/ -o picture.png --exposure 1
   tyndall render out/ --camera main --layer direct_single -o direct.pfm
   tyndall render out/ --method path_traced --error 0.02 -o oracle.exr
@@ -206,7 +206,7 @@ int make_and_write(const PictureOptions& options, const CommonFlags& flags) {
 void add_render_command(Shell& shell) {
     const auto options = std::make_shared<PictureOptions>();
     auto command = shell.add_command(
-        "render", "A picture again, from the solution file alone", examples,
+        "render", "A picture again, from the solution file alone", render_examples,
         [options](const CommonFlags& flags) { return make_and_write(*options, flags); });
     add_seed_flag(command, shell.flags());
     add_set_flag(command, shell.flags());

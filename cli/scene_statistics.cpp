@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 #include <set>
 
+#include "cli/solution_bytes.h"
+
 namespace tyndall::cli {
 namespace {
 
@@ -13,10 +15,6 @@ using mesh::Point;
 
 // Measured on the example scenes; good within a factor of two.
 constexpr double process_bytes = 35e6;
-constexpr double element_bytes = 800.0, element_band_bytes = 300.0;
-constexpr double row_entry_bytes = 8.0;    // column and value
-constexpr double smoothing_bytes = 37.0;   // beside these while rows are smoothed (smoothing.h)
-constexpr double moment_bytes = 12.0;      // of an entry, where elements are linear
 constexpr double crossings = 10.0;         // elements that a ray of a row meets
 constexpr double start_elements = 5500.0;  // of the coarse solution, if the base mesh has fewer
 
@@ -89,7 +87,7 @@ void foresee_memory(const SceneFile& file, const radiosity::Enclosure& e, SceneS
     const double limit = static_cast<double>(file.solve.max_elements);
     const double coarse = std::min(limit, std::max(start_elements, roots));
     const double per_row = std::min(coarse, crossings * static_cast<double>(file.solve.rays));
-    const double per_element = element_bytes + element_band_bytes * bands;
+    const double per_element = leaf_bytes + leaf_band_bytes * bands;
     const bool moments = file.solve.radiance == radiosity::Radiance::linear &&
                          !(file.solve.row_detail > 0.0) &&
                          file.solve.start != radiosity::Start::single_zone;
@@ -97,7 +95,7 @@ void foresee_memory(const SceneFile& file, const radiosity::Enclosure& e, SceneS
     // Moments of smoothed rows: those as made, and those of the union, twice as many.
     const double moment = moments ? moment_bytes * (smoothed ? 3.0 : 1.0) : 0.0;
     const double rows =
-        coarse * per_row * (row_entry_bytes + (smoothed ? smoothing_bytes : 0.0) + moment);
+        coarse * per_row * (entry_bytes + (smoothed ? smoothing_bytes : 0.0) + moment);
     double pixels = 0.0;
     for (const auto& camera : file.cameras)
         pixels = std::max(pixels, static_cast<double>(camera.width * camera.height));

@@ -54,7 +54,7 @@ std::size_t memory(const TableReader& table, std::string_view key) {
 }
 
 // A key and what to do with it: a new setting is one line.
-struct Setting {
+struct SceneSetting {
     Key key;
     void (*read)(const TableReader&, std::string_view, Settings&);
 };
@@ -63,7 +63,7 @@ using T = const TableReader&;
 using K = std::string_view;
 
 // clang-format off
-constexpr Setting solve_settings[] = {
+constexpr SceneSetting solve_settings[] = {
     {{"error", "number above 0 and below 1", "0.01", "goal: estimated relative error of the picture, or of the solution where there is no camera"},
      [](T t, K k, Settings& s) { s.solve.error = t.number(k, {0.0, 1.0, true, true}); }},
     {{"camera", "name of a camera", "the first camera", "the camera whose picture matters; \"\" for a solution good everywhere"},
@@ -141,7 +141,7 @@ constexpr Setting solve_settings[] = {
      [](T t, K k, Settings& s) { s.solve.seed = t.count(k, 0, 1ull << 53); }},
 };
 
-constexpr Setting render_settings[] = {
+constexpr SceneSetting render_settings[] = {
     {{"method", "name of a method", "\"line_of_sight\"", "how the picture is made from the solution"},
      [](T t, K k, Settings& s) { const auto names = render::renderer_names(); s.render.method = names[t.choice(k, names)]; }},
     {{"samples", "whole number", "16", "rays a pixel"},
@@ -170,18 +170,18 @@ constexpr Setting render_settings[] = {
 // clang-format on
 
 template <std::size_t size>
-KeyTable table_of(std::string_view title, const Setting (&settings)[size]) {
+KeyTable table_of(std::string_view title, const SceneSetting (&settings)[size]) {
     KeyTable table{title, {}};
-    for (const Setting& setting : settings) table.keys.push_back(setting.key);
+    for (const SceneSetting& setting : settings) table.keys.push_back(setting.key);
     return table;
 }
 
 template <std::size_t size>
 void read(const TableReader& root, std::string_view name, const KeyTable& keys,
-          const Setting (&settings)[size], Settings& result) {
+          const SceneSetting (&settings)[size], Settings& result) {
     if (!root.has(name)) return;
     const TableReader table = root.table(name, keys, std::string(keys.title));
-    for (const Setting& setting : settings) {
+    for (const SceneSetting& setting : settings) {
         if (table.has(setting.key.name)) setting.read(table, setting.key.name, result);
     }
 }

@@ -16,7 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // JSON knows no NaN: it is null.
-double number(const Json& json) {
+double number_or_nan(const Json& json) {
     return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : json.get<double>();
 }
 
@@ -41,28 +41,28 @@ RunFigures figures_of(const Json& json) {
     f.patches = json.at("patches").get<std::size_t>();
     f.zones = json.at("zones").get<std::size_t>();
     f.rays = json.at("rays").get<std::size_t>();
-    f.cpu_seconds = number(json.at("cpu_seconds"));
-    f.wall_seconds = number(json.at("wall_seconds"));
+    f.cpu_seconds = number_or_nan(json.at("cpu_seconds"));
+    f.wall_seconds = number_or_nan(json.at("wall_seconds"));
     f.memory_bytes = json.at("memory_bytes").get<std::size_t>();
-    f.estimated_error = number(json.at("estimated_error"));
-    f.estimated_picture_error = number(json.value("estimated_picture_error", Json()));
-    f.estimated_solution_error = number(json.value("estimated_solution_error", Json()));
-    f.tet_quality_min = number(json.at("tet_quality_min"));
-    f.tet_quality_mean = number(json.at("tet_quality_mean"));
-    f.triangle_quality_min = number(json.at("triangle_quality_min"));
-    f.triangle_quality_mean = number(json.at("triangle_quality_mean"));
+    f.estimated_error = number_or_nan(json.at("estimated_error"));
+    f.estimated_picture_error = number_or_nan(json.value("estimated_picture_error", Json()));
+    f.estimated_solution_error = number_or_nan(json.value("estimated_solution_error", Json()));
+    f.tet_quality_min = number_or_nan(json.at("tet_quality_min"));
+    f.tet_quality_mean = number_or_nan(json.at("tet_quality_mean"));
+    f.triangle_quality_min = number_or_nan(json.at("triangle_quality_min"));
+    f.triangle_quality_mean = number_or_nan(json.at("triangle_quality_mean"));
     return f;
 }
 
-RunRecord record_of(const Json& json) {
+RunRecord run_record_of(const Json& json) {
     RunRecord record;
     record.key = json.at("key").get<std::string>();
     record.overrides = json.at("overrides").get<std::vector<std::string>>();
     record.figures = figures_of(json.at("figures"));
     record.drawn = json.at("drawn").get<std::string>();
     for (const auto& [name, e] : json.at("errors").items()) {
-        record.errors[name] = {number(e.at("rmse")), number(e.at("bias")), number(e.at("block4")),
-                               number(e.at("block16"))};
+        record.errors[name] = {number_or_nan(e.at("rmse")), number_or_nan(e.at("bias")),
+                               number_or_nan(e.at("block4")), number_or_nan(e.at("block16"))};
         record.measured[name] = e.at("reference").get<std::string>();
     }
     record.failure = json.at("failure").get<std::string>();
@@ -73,7 +73,7 @@ RunRecord record_of(const Json& json) {
 
 std::optional<RunRecord> read_record(const std::filesystem::path& folder) {
     try {
-        return record_of(Json::parse(mesh::read_file(folder / "run.json")));
+        return run_record_of(Json::parse(mesh::read_file(folder / "run.json")));
     } catch (const mesh::InputError&) {
         return std::nullopt;
     } catch (const Json::exception&) {

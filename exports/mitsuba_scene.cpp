@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <numbers>
 
 #include "exports/little_endian.h"
 #include "exports/path_room.h"
@@ -20,9 +19,6 @@ using mesh::Direction;
 using mesh::InputError;
 using mesh::Point;
 using radiosity::none;
-using std::numbers::pi;
-
-constexpr double degrees = 180.0 / pi;
 
 std::string triple(const std::array<double, 3>& v) {
     return fmt::format("{:.9g}, {:.9g}, {:.9g}", v[0], v[1], v[2]);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +13,8 @@
 #include "radiosity/enclosure.h"
 
 namespace tyndall::exports {
+
+inline constexpr double degrees = 180.0 / std::numbers::pi;  // in a radian
 
 // What is seen of one side of a wall.
 struct Finish {

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <iterator>
-#include <numbers>
 
 #include "exports/path_room.h"
 #include "exports/sun_disc.h"
@@ -19,8 +18,6 @@ using mesh::Direction;
 using mesh::InputError;
 using mesh::Point;
 using radiosity::none;
-
-constexpr double degrees = 180.0 / std::numbers::pi;
 
 std::string numbers(const std::array<double, 3>& v) {
     return fmt::format("[{:.9g} {:.9g} {:.9g}]", v[0], v[1], v[2]);

@@ -129,6 +129,10 @@ double area(const BaseMesh& mesh, FacetId facet) {
     return glm::length(area_vector(mesh, facet));
 }
 
+double diagonal(const BaseMesh& mesh) {
+    return glm::distance(mesh.hull_min, mesh.hull_max);
+}
+
 Direction normal(const BaseMesh& mesh, FacetId facet) {
     const auto n = area_vector(mesh, facet);
     return n / glm::length(n);

@@ -74,4 +74,10 @@ double volume(const BaseMesh& mesh, TetId tet);
 double area(const BaseMesh& mesh, FacetId facet);
 Direction normal(const BaseMesh& mesh, FacetId facet);
 
+// Of the box around the hull [m].
+double diagonal(const BaseMesh& mesh);
+
+// 1 − cosine of the angle below which two facets count as one plane [-].
+inline constexpr double coplanar = 1e-9;
+
 }  // namespace tyndall::mesh

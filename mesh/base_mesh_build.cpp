@@ -14,7 +14,7 @@ namespace tyndall::mesh::tetgen {
 
 namespace {
 
-using Corners = std::array<std::uint32_t, 3>;
+using FaceKey = std::array<std::uint32_t, 3>;
 
 // The face opposite corner k, counter-clockwise seen from inside a positive tet.
 constexpr std::array<std::array<int, 3>, 4> inward{{{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}}};
@@ -107,7 +107,7 @@ void orient(BaseMesh& mesh, const Hull& hull) {
 
 // A face of a tet under its sorted corners.
 struct Face {
-    Corners key;
+    FaceKey key;
     std::uint32_t tet;
     int k;
 
@@ -116,8 +116,8 @@ struct Face {
     }
 };
 
-Corners sorted(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    Corners key{a, b, c};
+FaceKey sorted(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    FaceKey key{a, b, c};
     std::sort(key.begin(), key.end());
     return key;
 }

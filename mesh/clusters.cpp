@@ -10,9 +10,6 @@
 namespace tyndall::mesh {
 namespace {
 
-// 1 − cosine of the angle below which two facets count as one plane.
-constexpr double flat = 1e-9;
-
 bool lets_pass(const BaseMesh& mesh, std::size_t tet, int face) {
     const FacetId facet = mesh.tet_facets[tet][face];
     return mesh.neighbours[tet][face].valid() &&
@@ -107,7 +104,7 @@ ClusterGraph patch_graph(const BaseMesh& mesh, std::span<const std::uint32_t> ta
             auto& users = at_edge[std::uint64_t(a) << 32 | b];
             for (const std::uint32_t other : users) {
                 const Direction m = (other % 2 ? -1.0 : 1.0) * normal(mesh, FacetId(other / 2));
-                if (graph.tags[other] != graph.tags[s] || glm::dot(n, m) < 1.0 - flat ||
+                if (graph.tags[other] != graph.tags[s] || glm::dot(n, m) < 1.0 - coplanar ||
                     parts[tet_at(other).value] != parts[tet_at(s).value])
                     continue;
                 pairs.push_back({s, other});

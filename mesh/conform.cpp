@@ -10,11 +10,9 @@
 #include "mesh/conform_soup.h"
 #include "mesh/input_error.h"
 
-namespace tyndall::mesh {
+namespace tyndall::mesh::conforming {
 
 namespace {
-
-using namespace conforming;
 
 // The first opaque polygon owns both sides; a later one takes the side that its front looks to.
 void find_sides(std::span<const Polygon> polygons, const std::vector<Owner>& owners,
@@ -144,10 +142,15 @@ Soup soup_of(const Soup& last, const std::vector<Labelled>& facets, double toler
 
 }  // namespace
 
+}  // namespace tyndall::mesh::conforming
+
+namespace tyndall::mesh {
+
 ConformingComplex conform(std::span<const Polygon> polygons, const ConformOptions& options) {
     if (polygons.empty()) {
         return {};
     }
+    using namespace conforming;
     double tolerance = options.tolerance * check_corners(polygons, options.tolerance);
     auto soup = soup_of(polygons, tolerance);
     auto facets = cut(soup);

@@ -24,9 +24,6 @@ std::uint64_t edge_key(VertexId a, VertexId b) {
     return std::uint64_t(a.value) << 32 | b.value;
 }
 
-// 1 − cosine of the angle below which two facets count as one plane.
-constexpr double flat = 1e-9;
-
 }  // namespace
 
 std::size_t Fans::Hash::operator()(const Key& key) const noexcept {
@@ -78,7 +75,7 @@ std::uint32_t Fans::across(std::uint32_t facet_side, VertexId a, VertexId b) con
     if (!facets || facets->size() != 2) return facet_side;
     const FacetId other = (*facets)[0] == facet ? (*facets)[1] : (*facets)[0];
     const double cosine = glm::dot(normal(base_, facet), normal(base_, other));
-    if (std::abs(cosine) < 1.0 - flat) return facet_side;
+    if (std::abs(cosine) < 1.0 - coplanar) return facet_side;
     // Neighbours that fold back onto each other are not one flat surface.
     const auto middle = [&](FacetId f) {
         const auto& c = base_.facets[f.value].corners;

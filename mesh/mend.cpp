@@ -27,12 +27,12 @@ double size_of(const FaceSoup& soup) {
     return glm::length(high - low);
 }
 
-struct Cell {
+struct GridCell {
     std::int64_t x, y, z;
-    bool operator==(const Cell&) const = default;
+    bool operator==(const GridCell&) const = default;
 };
-struct CellHash {
-    std::size_t operator()(const Cell& c) const {
+struct GridCellHash {
+    std::size_t operator()(const GridCell& c) const {
         std::uint64_t h = static_cast<std::uint64_t>(c.x) * 0x9E3779B97F4A7C15ull;
         h = (h ^ (h >> 29) ^ static_cast<std::uint64_t>(c.y)) * 0xBF58476D1CE4E5B9ull;
         h = (h ^ (h >> 32) ^ static_cast<std::uint64_t>(c.z)) * 0x94D049BB133111EBull;
@@ -44,11 +44,11 @@ struct CellHash {
 // grid of that spacing, so that only 27 cells need to be looked at.
 Corners weld(const std::vector<Point>& points, double distance) {
     Corners result(points.size());
-    std::unordered_map<Cell, Corners, CellHash> grid;
+    std::unordered_map<GridCell, Corners, GridCellHash> grid;
     for (std::uint32_t i = 0; i < points.size(); ++i) {
         const auto scaled = points[i] / distance;
-        const Cell cell{std::int64_t(std::floor(scaled.x)), std::int64_t(std::floor(scaled.y)),
-                        std::int64_t(std::floor(scaled.z))};
+        const GridCell cell{std::int64_t(std::floor(scaled.x)), std::int64_t(std::floor(scaled.y)),
+                            std::int64_t(std::floor(scaled.z))};
         result[i] = i;
         for (int n = 0; n < 27 && result[i] == i; ++n) {
             const auto found =

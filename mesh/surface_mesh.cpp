@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <map>
 
-namespace tyndall::mesh {
-namespace {
+// What has members of these types is seen elsewhere: a name of their own, not an anonymous
+// namespace.
+namespace tyndall::mesh::manifold {
 
 struct Traits : OpenMesh::DefaultTraitsDouble {
     VertexTraits {
@@ -18,12 +19,12 @@ struct Traits : OpenMesh::DefaultTraitsDouble {
 };
 using TriMesh = OpenMesh::TriMesh_ArrayKernelT<Traits>;
 
-OpenMesh::Vec3d to_openmesh(Point p) {
+inline OpenMesh::Vec3d to_openmesh(Point p) {
     return {p.x, p.y, p.z};
 }
 
 // One manifold piece and its vertices by forest id.
-struct ManifoldPiece {
+struct Piece {
     TriMesh mesh;
     std::map<std::uint32_t, OpenMesh::VertexHandle> vertices;
 
@@ -75,15 +76,17 @@ struct Place {
     OpenMesh::FaceHandle face = OpenMesh::FaceHandle();
 };
 
-}  // namespace
+}  // namespace tyndall::mesh::manifold
+
+namespace tyndall::mesh {
 
 struct SurfaceMeshes::Meshes {
-    std::vector<std::unique_ptr<ManifoldPiece>> pieces;
-    std::vector<Place> places;  // of each patch node that is a leaf
+    std::vector<std::unique_ptr<manifold::Piece>> pieces;
+    std::vector<manifold::Place> places;  // of each patch node that is a leaf
 
     void insert(const Forest& forest, PatchId id, std::uint32_t& first, std::uint32_t& last);
     // `t`: from the edge's lower vertex to its higher one.
-    void split(Forest& forest, ManifoldPiece& piece, std::uint32_t index,
+    void split(Forest& forest, manifold::Piece& piece, std::uint32_t index,
                OpenMesh::HalfedgeHandle edge, double t, std::vector<PatchId>* made);
 };
 
@@ -91,7 +94,7 @@ struct SurfaceMeshes::Meshes {
 void SurfaceMeshes::Meshes::insert(const Forest& forest, PatchId id, std::uint32_t& first,
                                    std::uint32_t& last) {
     for (std::uint32_t k = first; k <= last; ++k) {
-        if (k == pieces.size()) pieces.push_back(std::make_unique<ManifoldPiece>());
+        if (k == pieces.size()) pieces.push_back(std::make_unique<manifold::Piece>());
         if (!pieces[k]->accepts(forest, forest[id])) {
             if (k == last) last = static_cast<std::uint32_t>(pieces.size());
             continue;
@@ -119,10 +122,10 @@ SurfaceMeshes::SurfaceMeshes(const Forest& forest, std::span<const std::uint32_t
 SurfaceMeshes::~SurfaceMeshes() = default;
 
 // Splits an edge and the one or two triangles on it, in the OpenMesh and in the forest alike.
-void SurfaceMeshes::Meshes::split(Forest& forest, ManifoldPiece& piece, std::uint32_t index,
+void SurfaceMeshes::Meshes::split(Forest& forest, manifold::Piece& piece, std::uint32_t index,
                                   OpenMesh::HalfedgeHandle edge, double t,
                                   std::vector<PatchId>* made) {
-    TriMesh& mesh = piece.mesh;
+    manifold::TriMesh& mesh = piece.mesh;
     const VertexId a(mesh.data(mesh.from_vertex_handle(edge)).id);
     const VertexId b(mesh.data(mesh.to_vertex_handle(edge)).id);
     const VertexId middle = forest.vertex_on_edge(std::min(a, b), std::max(a, b), t);
@@ -138,11 +141,11 @@ void SurfaceMeshes::Meshes::split(Forest& forest, ManifoldPiece& piece, std::uin
         const int j =
             int(std::find(corners.begin(), corners.end(), std::max(a, b)) - corners.begin());
         const PatchId first = forest.bisect(patch, i, j, t);
-        places[patch.value] = Place{};
+        places[patch.value] = manifold::Place{};
         children.push_back(first);
         children.push_back(PatchId(first.value + 1ull));
     }
-    const auto vertex = mesh.add_vertex(to_openmesh(forest.point(middle)));
+    const auto vertex = mesh.add_vertex(manifold::to_openmesh(forest.point(middle)));
     mesh.data(vertex).id = middle.value;
     mesh.split_edge(mesh.edge_handle(edge), vertex);
     places.resize(forest.patch_count());
@@ -167,9 +170,9 @@ void SurfaceMeshes::Meshes::split(Forest& forest, ManifoldPiece& piece, std::uin
 
 void SurfaceMeshes::refine(Forest& forest, PatchId patch, std::vector<PatchId>* made) {
     while (forest.is_leaf(patch)) {
-        const Place place = meshes_->places[patch.value];
+        const manifold::Place place = meshes_->places[patch.value];
         if (place.piece == no_group) return;
-        ManifoldPiece& piece = *meshes_->pieces[place.piece];
+        manifold::Piece& piece = *meshes_->pieces[place.piece];
         const auto [i, j] = forest.longest_edge(patch);
         const auto& corners = forest[patch].corners;
         const VertexId a = corners[i], b = corners[j];
@@ -192,9 +195,9 @@ void SurfaceMeshes::refine(Forest& forest, PatchId patch, std::vector<PatchId>* 
 
 void SurfaceMeshes::split(Forest& forest, PatchId patch, int i, int j, double t,
                           std::vector<PatchId>* made) {
-    const Place place = meshes_->places[patch.value];
+    const manifold::Place place = meshes_->places[patch.value];
     if (place.piece == no_group) return;
-    ManifoldPiece& piece = *meshes_->pieces[place.piece];
+    manifold::Piece& piece = *meshes_->pieces[place.piece];
     const VertexId a = forest[patch].corners[i], b = forest[patch].corners[j];
     t = Forest::place(t);
     meshes_->split(forest, piece, place.piece, piece.edge_of(place.face, a, b), a < b ? t : 1.0 - t,
@@ -203,9 +206,9 @@ void SurfaceMeshes::split(Forest& forest, PatchId patch, int i, int j, double t,
 
 std::array<PatchId, 3> SurfaceMeshes::neighbours(const Forest& forest, PatchId patch) const {
     std::array<PatchId, 3> result;
-    const Place place = meshes_->places[patch.value];
+    const manifold::Place place = meshes_->places[patch.value];
     if (place.piece == no_group) return result;
-    const TriMesh& mesh = meshes_->pieces[place.piece]->mesh;
+    const manifold::TriMesh& mesh = meshes_->pieces[place.piece]->mesh;
     const auto& corners = forest[patch].corners;
     for (auto half = mesh.cfh_begin(place.face); half.is_valid(); ++half) {
         const auto beyond = mesh.face_handle(mesh.opposite_halfedge_handle(*half));

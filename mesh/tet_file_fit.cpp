@@ -15,9 +15,7 @@
 namespace tyndall::mesh {
 namespace {
 
-using tetgen::Hull;
-
-Hull box_of(std::span<const Point> points, Hull box) {
+tetgen::Hull box_of(std::span<const Point> points, tetgen::Hull box) {
     for (const Point& p : points) {
         box.min = glm::min(box.min, p);
         box.max = glm::max(box.max, p);
@@ -25,7 +23,7 @@ Hull box_of(std::span<const Point> points, Hull box) {
     return box;
 }
 
-double diagonal(const Hull& box) {
+double diagonal(const tetgen::Hull& box) {
     return glm::distance(box.min, box.max);
 }
 
@@ -57,7 +55,7 @@ TetFile moved(TetFile file, const FittedNodes& nodes) {
 
 // Whether the tets fill a box, with all of the scene inside.
 bool fills_box(const TetFile& file, const FittedNodes& nodes, const ConformingComplex& complex,
-               const Hull& box) {
+               const tetgen::Hull& box) {
     double volume = 0.0;
     for (const FileTet& tet : file.tets) volume += six_volumes(nodes.points, tet.corners) / 6.0;
     const auto extent = box.max - box.min;
@@ -104,7 +102,7 @@ FittedMesh fit_tetrahedra(const TetFile& given, const ConformingComplex& complex
                           std::span<const Polygon> polygons, const TetrahedralizeOptions& options) {
     if (complex.facets.empty())
         throw InputError("There are no surfaces to mesh. Add at least one.");
-    const Hull scene = box_of(complex.points, {complex.points[0], complex.points[0]});
+    const tetgen::Hull scene = box_of(complex.points, {complex.points[0], complex.points[0]});
     const double tolerance = fit_tolerance * diagonal(scene);
     const FacetFinder finder(complex, tolerance);
     const FittedNodes nodes = fit_nodes(given, complex, finder, tolerance);
@@ -118,7 +116,7 @@ FittedMesh fit_tetrahedra(const TetFile& given, const ConformingComplex& complex
     for (const FileTet& tet : file.tets) parts.all.tets.push_back(tet.corners);
     for (const auto& face : matched.faces) add(parts.all, groups, face);
     const Point start = nodes.points[file.tets[0].corners[0]];
-    Hull hull = box_of(nodes.points, {start, start});
+    tetgen::Hull hull = box_of(nodes.points, {start, start});
     if (!fills_box(file, nodes, complex, hull)) {
         hull = box_of(nodes.points, scene);
         const Point grow(options.hull_margin * diagonal(hull));

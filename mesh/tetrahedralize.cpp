@@ -20,8 +20,6 @@ namespace tyndall::mesh {
 
 namespace {
 
-using namespace tetgen;
-
 struct Attempt {
     std::string switches;
     double cpu_seconds;
@@ -50,7 +48,7 @@ std::vector<Attempt> attempts(std::size_t facets) {
 // A rotation about the hull's middle by an angle and an axis that no scene has by design.
 class Turn {
   public:
-    explicit Turn(const Hull& hull) : centre_(0.5 * (hull.min + hull.max)) {
+    explicit Turn(const tetgen::Hull& hull) : centre_(0.5 * (hull.min + hull.max)) {
         const auto axis = glm::normalize(glm::dvec3(0.36, 0.71, 0.53));
         const auto u = glm::normalize(glm::cross(axis, glm::dvec3(1, 0, 0)));
         const auto v = glm::cross(axis, u);
@@ -61,13 +59,13 @@ class Turn {
         matrix_ = frame * about_first * glm::transpose(frame);
     }
 
-    Input apply(Input input) const {
+    tetgen::Input apply(tetgen::Input input) const {
         for (Point& p : input.points) p = centre_ + matrix_ * (p - centre_);
         return input;
     }
     // TetGen gives the input's points first, in order: they get their own coordinates to the last
     // bit.
-    void undo(Output& output, const Input& input) const {
+    void undo(tetgen::Output& output, const tetgen::Input& input) const {
         const auto back = glm::transpose(matrix_);
         for (std::size_t k = 0; k < output.points.size(); ++k)
             output.points[k] = k < input.points.size()
@@ -101,8 +99,8 @@ void check(const ConformingComplex& complex, const TetrahedralizeOptions& option
     }
 }
 
-Hull hull_around(const ConformingComplex& complex, double margin) {
-    Hull hull{complex.points.front(), complex.points.front()};
+tetgen::Hull hull_around(const ConformingComplex& complex, double margin) {
+    tetgen::Hull hull{complex.points.front(), complex.points.front()};
     for (const auto& point : complex.points) {
         hull.min = glm::min(hull.min, point);
         hull.max = glm::max(hull.max, point);
@@ -111,8 +109,9 @@ Hull hull_around(const ConformingComplex& complex, double margin) {
     return {hull.min - grow, hull.max + grow};
 }
 
-Input input_of(const ConformingComplex& complex, const FacetGroups& groups, const Hull& hull) {
-    Input input;
+tetgen::Input input_of(const ConformingComplex& complex, const FacetGroups& groups,
+                       const tetgen::Hull& hull) {
+    tetgen::Input input;
     input.points = complex.points;
     for (std::size_t f = 0; f < complex.facets.size(); ++f) {
         const auto& corners = complex.facets[f].corners;
@@ -135,11 +134,11 @@ Input input_of(const ConformingComplex& complex, const FacetGroups& groups, cons
 }
 
 // The facets that TetGen's own check finds crossing, or none.
-std::vector<FacetId> diagnose(const std::filesystem::path& worker, const Input& input,
-                              const FacetGroups& groups, const Limits& limits) {
-    const auto result = run(worker, "pdQ", input, limits);
+std::vector<FacetId> diagnose(const std::filesystem::path& worker, const tetgen::Input& input,
+                              const FacetGroups& groups, const tetgen::Limits& limits) {
+    const auto result = tetgen::run(worker, "pdQ", input, limits);
     std::set<FacetId> facets;
-    if (result.outcome == Outcome::done && result.output.tets.empty()) {
+    if (result.outcome == tetgen::Outcome::done && result.output.tets.empty()) {
         for (const auto marker : result.output.face_markers) {
             if (marker >= 1 && static_cast<std::size_t>(marker) <= groups.size()) {
                 facets.insert(groups.members(marker - 1).front());
@@ -150,7 +149,7 @@ std::vector<FacetId> diagnose(const std::filesystem::path& worker, const Input& 
 }
 
 struct Failure {
-    Outcome outcome;
+    tetgen::Outcome outcome;
     std::string message;
     FacetId facet;
 };
@@ -160,7 +159,7 @@ class Mesher {
     Mesher(const ConformingComplex& complex, const TetrahedralizeOptions& options)
         : complex_(complex),
           options_(options),
-          worker_(find_worker(options.worker)),
+          worker_(tetgen::find_worker(options.worker)),
           hull_(hull_around(complex, options.hull_margin)),
           groups_(complex),
           input_(input_of(complex, groups_, hull_)),
@@ -171,24 +170,26 @@ class Mesher {
         if (!failures_.empty() && remaining() <= 0.0) {
             return {};
         }
-        auto result = run(worker_, attempt.switches, attempt.turned ? turn_.apply(input_) : input_,
-                          {remaining(), attempt.cpu_seconds, options_.max_bytes});
-        if (attempt.turned && result.outcome == Outcome::done) turn_.undo(result.output, input_);
-        if (result.outcome != Outcome::done) {
+        auto result =
+            tetgen::run(worker_, attempt.switches, attempt.turned ? turn_.apply(input_) : input_,
+                        {remaining(), attempt.cpu_seconds, options_.max_bytes});
+        if (attempt.turned && result.outcome == tetgen::Outcome::done)
+            turn_.undo(result.output, input_);
+        if (result.outcome != tetgen::Outcome::done) {
             failures_.push_back({result.outcome, result.message, {}});
             return {};
         }
         try {
-            return build_base_mesh(result.output, complex_, groups_, hull_);
-        } catch (const Fault& fault) {
-            failures_.push_back({Outcome::refused, fault.what(), fault.facet});
+            return tetgen::build_base_mesh(result.output, complex_, groups_, hull_);
+        } catch (const tetgen::Fault& fault) {
+            failures_.push_back({tetgen::Outcome::refused, fault.what(), fault.facet});
             return {};
         }
     }
 
     [[noreturn]] void give_up(std::span<const Polygon> polygons) const {
         const auto& last = failures_.back();
-        if (last.outcome == Outcome::out_of_memory) {
+        if (last.outcome == tetgen::Outcome::out_of_memory) {
             throw InputError(
                 fmt::format("Meshing {} facets needs more than the {:.3g} MB allowed ({}). Allow "
                             "more memory or "
@@ -196,7 +197,7 @@ class Mesher {
                             complex_.facets.size(),
                             static_cast<double>(options_.max_bytes) / 1048576.0, last.message));
         }
-        if (last.outcome == Outcome::out_of_time) {
+        if (last.outcome == tetgen::Outcome::out_of_time) {
             throw InputError(fmt::format(
                 "Meshing {} facets takes more than the {:.3g} s allowed ({}). Allow more time or "
                 "simplify the surfaces.",
@@ -248,9 +249,9 @@ class Mesher {
     const ConformingComplex& complex_;
     const TetrahedralizeOptions& options_;
     std::filesystem::path worker_;
-    Hull hull_;
+    tetgen::Hull hull_;
     FacetGroups groups_;
-    Input input_;
+    tetgen::Input input_;
     Turn turn_;
     std::vector<Failure> failures_;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();

@@ -9,6 +9,8 @@
 
 namespace tyndall::mesh {
 
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+
 using Point = glm::dvec3;      // [m]
 using Direction = glm::dvec3;  // unit length unless said otherwise [-]
 

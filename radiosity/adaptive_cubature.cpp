@@ -8,11 +8,11 @@
 namespace tyndall::radiosity {
 namespace {
 
-constexpr int points = 7;
+constexpr int rule_points = 7;
 
 struct Rule {
-    std::array<double, points> node{}, weight{};   // on [0, 1]
-    std::array<double, points> fourth{}, sixth{};  // null rules, of the weights' norm
+    std::array<double, rule_points> node{}, weight{};   // on [0, 1]
+    std::array<double, rule_points> fourth{}, sixth{};  // null rules, of the weights' norm
 };
 
 // P_n(x).
@@ -29,22 +29,24 @@ double legendre(int n, double x) {
 
 Rule gauss() {
     Rule rule;
-    for (int k = 0; k < points; ++k) {
-        double x = std::cos(M_PI * (k + 0.75) / (points + 0.5)), slope = 1.0;
+    for (int k = 0; k < rule_points; ++k) {
+        double x = std::cos(M_PI * (k + 0.75) / (rule_points + 0.5)), slope = 1.0;
         for (int step = 0; step < 50; ++step) {
-            slope = points * (x * legendre(points, x) - legendre(points - 1, x)) / (x * x - 1.0);
-            x -= legendre(points, x) / slope;
+            slope = rule_points * (x * legendre(rule_points, x) - legendre(rule_points - 1, x)) /
+                    (x * x - 1.0);
+            x -= legendre(rule_points, x) / slope;
         }
-        slope = points * (x * legendre(points, x) - legendre(points - 1, x)) / (x * x - 1.0);
+        slope = rule_points * (x * legendre(rule_points, x) - legendre(rule_points - 1, x)) /
+                (x * x - 1.0);
         rule.node[k] = 0.5 * (1.0 + x);
         rule.weight[k] = 1.0 / ((1.0 - x * x) * slope * slope);
     }
     double norm = 0.0;
     for (const double w : rule.weight) norm += w * w;
     // Legendre polynomials times the weights are orthogonal to all polynomials of lower degree.
-    const auto null_rule = [&](int degree, std::array<double, points>& null) {
+    const auto null_rule = [&](int degree, std::array<double, rule_points>& null) {
         double square = 0.0;
-        for (int k = 0; k < points; ++k) {
+        for (int k = 0; k < rule_points; ++k) {
             null[k] = rule.weight[k] * legendre(degree, 2.0 * rule.node[k] - 1.0);
             square += null[k] * null[k];
         }
@@ -74,16 +76,16 @@ double left(double fourth, double sixth) {
 }
 
 void evaluate(Cell& cell, const std::function<double(double, double)>& f) {
-    std::array<std::array<double, points>, points> values;
-    for (int i = 0; i < points; ++i)
-        for (int j = 0; j < points; ++j)
+    std::array<std::array<double, rule_points>, rule_points> values;
+    for (int i = 0; i < rule_points; ++i)
+        for (int j = 0; j < rule_points; ++j)
             values[i][j] =
                 f(cell.u + cell.width * rule.node[i], cell.v + cell.height * rule.node[j]);
     const double area = cell.width * cell.height;
     double u4 = 0.0, u6 = 0.0, v4 = 0.0, v6 = 0.0, sum = 0.0;
-    for (int j = 0; j < points; ++j) {
+    for (int j = 0; j < rule_points; ++j) {
         double row = 0.0, row4 = 0.0, row6 = 0.0, column4 = 0.0, column6 = 0.0;
-        for (int i = 0; i < points; ++i) {
+        for (int i = 0; i < rule_points; ++i) {
             row += rule.weight[i] * values[i][j];
             row4 += rule.fourth[i] * values[i][j];
             row6 += rule.sixth[i] * values[i][j];
@@ -110,11 +112,11 @@ Integral integrate_square(const std::function<double(double, double)>& f,
     evaluate(whole, f);
     cells.push(whole);
     double value = whole.value, error = whole.error();
-    std::size_t used = points * points;
+    std::size_t used = rule_points * rule_points;
     const auto goal = [&] {
         return std::max(options.absolute, options.relative * std::abs(value));
     };
-    while (error > goal() && used + 2 * points * points <= options.evaluations) {
+    while (error > goal() && used + 2 * rule_points * rule_points <= options.evaluations) {
         const Cell cell = cells.top();
         cells.pop();
         std::array<Cell, 2> halves{cell, cell};
@@ -133,7 +135,7 @@ Integral integrate_square(const std::function<double(double, double)>& f,
             error += half.error();
             cells.push(half);
         }
-        used += 2 * points * points;
+        used += 2 * rule_points * rule_points;
         // Sums that grew and shrank many times are made anew when it is over.
     }
     Integral result;

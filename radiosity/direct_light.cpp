@@ -23,20 +23,16 @@ namespace {
 
 using std::numbers::pi;
 // Of the mesh's diagonal: above what rounding does to points computed on a plane.
-constexpr double on_plane = 1e-10;
+constexpr double plane_rounding = 1e-10;
 constexpr double merge_tolerance = 1e-11;
 // Occluders × points beyond which none is tested for being an outer wall.
 constexpr double most_wall_tests = 2e8;
 
-struct Scratch {
+struct LightScratch {
     mesh::VisibleScratch visible;
     std::vector<Point> relative, above;
     std::vector<double> mean;
 };
-
-double diagonal(const mesh::BaseMesh& mesh) {
-    return glm::distance(mesh.hull_min, mesh.hull_max);
-}
 
 // Drops walls with all that light can reach on one side of them: they come between no two points.
 std::vector<mesh::ConvexPolygon> inner_polygons(const Enclosure& enclosure,
@@ -50,7 +46,7 @@ std::vector<mesh::ConvexPolygon> inner_polygons(const Enclosure& enclosure,
         if (reached[k]) points.push_back(enclosure.mesh.points[k]);
     if (static_cast<double>(points.size()) * static_cast<double>(all.size()) > most_wall_tests)
         return all;
-    const double tolerance = on_plane * diagonal(enclosure.mesh);
+    const double tolerance = plane_rounding * diagonal(enclosure.mesh);
     std::vector<mesh::ConvexPolygon> inner;
     for (const auto& polygon : all) {
         bool front = false, back = false;
@@ -95,7 +91,7 @@ struct DirectLight::Data {
           depth(enclosure, merge_tolerance * diagonal(enclosure.mesh)),
           mirrored(enclosure),
           hull{enclosure.mesh.hull_min, enclosure.mesh.hull_max},
-          tolerance(on_plane * diagonal(enclosure.mesh)) {
+          tolerance(plane_rounding * diagonal(enclosure.mesh)) {
         if (lights.empty()) return;
         const auto polygons =
             occluding_polygons(enclosure, merge_tolerance * diagonal(enclosure.mesh));
@@ -108,13 +104,14 @@ struct DirectLight::Data {
     void visit(const Receiver& receiver, double widest, const ArrivingPart& visit) const;
     // What of an emitter the receiver sees; the whole emitter is left in scratch.relative, its
     // parts in scratch.visible.
-    mesh::Visibility look(const Receiver& receiver, const AreaLight& light, Scratch& scratch) const;
-    void from_area(const Receiver& receiver, const AreaLight& light, Scratch& scratch,
+    mesh::Visibility look(const Receiver& receiver, const AreaLight& light,
+                          LightScratch& scratch) const;
+    void from_area(const Receiver& receiver, const AreaLight& light, LightScratch& scratch,
                    std::span<double> incident) const;
     void from_part(const Receiver& receiver, const AreaLight& light, std::span<const Point> part,
-                   Scratch& scratch, std::span<double> incident) const;
+                   LightScratch& scratch, std::span<double> incident) const;
     void from_samples(const Receiver& receiver, const AreaLight& light,
-                      std::span<const Point> corners, Scratch& scratch,
+                      std::span<const Point> corners, LightScratch& scratch,
                       std::span<double> incident) const;
     void from_path(const Receiver& receiver, Direction path, mesh::Reach reach,
                    const Spectrum& strength, double factor, std::span<double> incident) const;
@@ -144,7 +141,7 @@ double DirectLight::Data::weight(const Receiver& receiver, std::span<const Point
 }
 
 void DirectLight::Data::from_part(const Receiver& receiver, const AreaLight& light,
-                                  std::span<const Point> part, Scratch& scratch,
+                                  std::span<const Point> part, LightScratch& scratch,
                                   std::span<double> incident) const {
     const double share = weight(receiver, part);
     if (share == 0.0) return;
@@ -156,7 +153,7 @@ void DirectLight::Data::from_part(const Receiver& receiver, const AreaLight& lig
 }
 
 void DirectLight::Data::from_samples(const Receiver& receiver, const AreaLight& light,
-                                     std::span<const Point> corners, Scratch& scratch,
+                                     std::span<const Point> corners, LightScratch& scratch,
                                      std::span<double> incident) const {
     sampled_transmittance(*occlusion, depth, receiver, corners,
                           light.reach == mesh::Reach::infinite ? &hull : nullptr,
@@ -167,7 +164,7 @@ void DirectLight::Data::from_samples(const Receiver& receiver, const AreaLight& 
 }
 
 mesh::Visibility DirectLight::Data::look(const Receiver& receiver, const AreaLight& light,
-                                         Scratch& scratch) const {
+                                         LightScratch& scratch) const {
     const bool finite = light.reach == mesh::Reach::finite;
     auto& corners = scratch.relative;
     corners.assign(light.corners.begin(), light.corners.end());
@@ -189,7 +186,7 @@ mesh::Visibility DirectLight::Data::look(const Receiver& receiver, const AreaLig
 }
 
 void DirectLight::Data::from_area(const Receiver& receiver, const AreaLight& light,
-                                  Scratch& scratch, std::span<double> incident) const {
+                                  LightScratch& scratch, std::span<double> incident) const {
     switch (look(receiver, light, scratch)) {
         case mesh::Visibility::none:
             return;
@@ -226,7 +223,7 @@ void DirectLight::Data::from_path(const Receiver& receiver, Direction path, mesh
 void DirectLight::Data::gather(const Receiver& receiver, std::span<double> incident) const {
     assert(receiver.tet.valid() && incident.size() == enclosure.bands);
     std::fill(incident.begin(), incident.end(), 0.0);
-    thread_local Scratch scratch;
+    thread_local LightScratch scratch;
     scratch.mean.resize(incident.size());
     for (const AreaLight& light : lights.areas) from_area(receiver, light, scratch, incident);
     for_paths(receiver, [&](Direction path, mesh::Reach reach, const Spectrum& s, double factor) {
@@ -237,7 +234,7 @@ void DirectLight::Data::gather(const Receiver& receiver, std::span<double> incid
 
 void DirectLight::Data::visit(const Receiver& receiver, double widest,
                               const ArrivingPart& visit) const {
-    thread_local Scratch scratch;
+    thread_local LightScratch scratch;
     thread_local std::vector<double> part;
     scratch.mean.resize(enclosure.bands);
     const auto tell = [&](Direction towards, auto&& from) {

@@ -7,6 +7,10 @@
 
 namespace tyndall::radiosity {
 
+// A zone is seen as an integral along chords. Its function keeps the mean, so that along a chord
+// what is left has either sign: about half of its deviation remains [-].
+inline constexpr double chord_share = 0.5;
+
 // Only nodes that light can reach are listed: zones in a medium, patches on a side that faces a
 // region which is not solid. Lists grow in the order of creation; a node that has been bisected
 // stays in them.

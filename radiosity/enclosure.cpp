@@ -21,7 +21,8 @@ using mesh::InputError;
 using mesh::Opacity;
 
 // A name and where it was defined, as messages give it.
-std::string named(const std::string& what, const std::string& name, const std::string& where) {
+std::string name_and_place(const std::string& what, const std::string& name,
+                           const std::string& where) {
     return where.empty() ? fmt::format("{} \"{}\"", what, name)
                          : fmt::format("{}: {} \"{}\"", where, what, name);
 }
@@ -158,18 +159,19 @@ class Binder {
                 throw InputError(fmt::format(
                     "{} is to fill the region around at = [{}, {}, {}], which lies outside the "
                     "scene's hull. Give a point inside the region.",
-                    named("medium", medium.name, medium.where), x.x, x.y, x.z));
+                    name_and_place("medium", medium.name, medium.where), x.x, x.y, x.z));
             if (const FacetId wall = wall_at(mesh_, x, tolerance); wall.valid())
                 throw InputError(fmt::format(
                     "{} is to fill the region around at = [{}, {}, {}], which lies on a surface{}. "
                     "Move the point into the region.",
-                    named("medium", medium.name, medium.where), x.x, x.y, x.z, on_surface(wall)));
+                    name_and_place("medium", medium.name, medium.where), x.x, x.y, x.z,
+                    on_surface(wall)));
             if (auto& claim = claimed[region.value]; claim != scene_.media.size())
                 throw InputError(fmt::format(
                     "{} and medium \"{}\" claim one region by their points `at`. Remove one, or "
                     "put "
                     "a surface without material (an interface) between them.",
-                    named("medium", medium.name, medium.where), scene_.media[claim].name));
+                    name_and_place("medium", medium.name, medium.where), scene_.media[claim].name));
             else
                 claim = m;
         }

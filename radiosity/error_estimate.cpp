@@ -10,9 +10,6 @@ namespace {
 // better than the difference of their halves says, by this factor.
 const double whole_net = std::pow(2.0, -1.0 / 6.0);
 
-// What chords of a zone see of the variation within it.
-constexpr double chord_share = 0.5;
-
 double square(double x) {
     return x * x;
 }

@@ -69,10 +69,10 @@ Moment over(const ExtinctionBand& band, const std::array<Point, 4>& corners, con
 }
 
 // The function's values while the grid gets finer.
-class Sampler {
+class FunctionSampler {
   public:
-    Sampler(const std::function<double(Point)>& function, Point low, Point high,
-            const SampleOptions& options)
+    FunctionSampler(const std::function<double(Point)>& function, Point low, Point high,
+                    const SampleOptions& options)
         : function_(function), low_(low), high_(high), options_(options) {}
 
     SampledFunction run() {
@@ -225,7 +225,7 @@ double rough_mean(const ExtinctionBand& band, const std::array<Point, 4>& corner
 
 SampledFunction sample_function(const std::function<double(Point)>& function, Point low, Point high,
                                 const SampleOptions& options) {
-    return Sampler(function, low, high, options).run();
+    return FunctionSampler(function, low, high, options).run();
 }
 
 }  // namespace tyndall::radiosity

@@ -17,8 +17,6 @@ constexpr double above_surface = 4e-6;
 // Of the same: how far past an interface the next facet is looked for.
 constexpr double past_interface = 2e-7;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 }  // namespace
 
 struct FacetHits::Tree {

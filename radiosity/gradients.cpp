@@ -16,9 +16,9 @@ namespace {
 constexpr double least_eigenvalue = 0.03;
 
 // Elements by the corners they share.
-class Corners {
+class ElementsAtCorners {
   public:
-    Corners(const Enclosure& enclosure, const Forest& forest, const Elements& elements)
+    ElementsAtCorners(const Enclosure& enclosure, const Forest& forest, const Elements& elements)
         : forest_(forest), fans_(enclosure.mesh) {
         for (std::size_t i = 0; i < elements.size(); ++i) {
             if (elements.is_patch(i)) {
@@ -90,7 +90,7 @@ Eigen::Matrix3d pseudo_inverse(const Eigen::Matrix3d& normal) {
 
 ElementGradients::ElementGradients(const Enclosure& enclosure, const Forest& forest,
                                    const Elements& elements) {
-    const Corners corners(enclosure, forest, elements);
+    const ElementsAtCorners corners(enclosure, forest, elements);
     std::vector<Point> centres;
     for (const PatchId patch : elements.patches)
         centres.push_back(centre_of(enclosure, forest, patch));

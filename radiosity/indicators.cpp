@@ -14,8 +14,6 @@ namespace {
 
 // How far beyond a face the neighbour is looked for, of the way from the leaf's centroid.
 constexpr double beyond = 1e-4;
-// Cosine between the normals of patches that lie on one plane.
-constexpr double flat = 1.0 - 1e-9;
 // Of optical thickness: see thickness_error.
 constexpr double thick_rate = 0.29;
 
@@ -89,7 +87,7 @@ double jump_of(const JudgedElement& e, PatchId patch) {
         const PatchId other = neighbours[k];
         const std::array<VertexId, 2> ends{vertices[(k + 1) % 3], vertices[(k + 2) % 3]};
         if (!other.valid() || e.mesh.on_one_shadow(ends)) continue;
-        if (glm::dot(normal, normal_of(e.forest, other)) < flat) continue;
+        if (glm::dot(normal, normal_of(e.forest, other)) < 1.0 - mesh::coplanar) continue;
         const Point middle = 0.5 * (e.forest.point(ends[0]) + e.forest.point(ends[1]));
         sum += squared_difference(e.radiance, patch, other, middle);
         ++count;

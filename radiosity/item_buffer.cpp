@@ -12,8 +12,6 @@ namespace {
 // Rounding, relative: of edges seen from the eye, and of depths.
 constexpr double rounding = 1e-12, depth_rounding = 1e-9;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 // The box around a projection in a face's plane: of a hull of points, of which some may lie beside
 // or behind the eye. Where an edge passes the plane through the eye that is parallel to the face,
 // its projection goes on to infinity.

@@ -22,10 +22,6 @@ constexpr double little_enough = 5e-4;
 // A leaf beside the point is cut this many times at most: what is left in the corner is small.
 constexpr int most_cuts = 8;
 
-double unit(std::uint64_t bits) {
-    return static_cast<double>(bits >> 11) * 0x1p-53;
-}
-
 }  // namespace
 
 struct LitPatches::Triangle {
@@ -175,7 +171,7 @@ class LitPatches::Visit {
 
     void add(const Triangle& t, std::uint32_t index, std::uint64_t stream) {
         const std::uint64_t bits = hash_seed(0, stream);
-        const auto w = uniform_in_triangle(unit(bits), unit(hash_seed(bits, 1)));
+        const auto w = uniform_in_triangle(unit_number(bits), unit_number(hash_seed(bits, 1)));
         const Direction path =
             w[0] * t.corners[0] + w[1] * t.corners[1] + w[2] * t.corners[2] - receiver_.x;
         const double share = weight(t);

@@ -13,9 +13,11 @@ namespace tyndall::radiosity {
 namespace {
 
 constexpr std::size_t most_triangles = 1024;  // a polygon; then the rest is taken as it is
-constexpr double narrow = 0.1;      // spread, up to which cubature integrates the weights to 1e-6
+constexpr double narrow_spread =
+    0.1;                            // spread, up to which cubature integrates the weights to 1e-6
 constexpr double low_share = 0.02;  // of the step, up to which three points are enough
-constexpr double flat = 2e-4;  // variation, of the step, too small for the weights' shape to matter
+constexpr double flat_exponent =
+    2e-4;  // variation, of the step, too small for the weights' shape to matter
 // Variation of the exponent × spread of the weights, of the step: three points then err by 1e-6.
 constexpr double little = 1e-5;
 constexpr double some = 0.1;  // the same, up to which seven points err by about 1e-5
@@ -52,7 +54,7 @@ bool operator<(const Triangle& s, const Triangle& t) {
     return s.doubt < t.doubt;
 }
 
-struct Scratch {
+struct PolygonScratch {
     std::vector<Triangle> open, heap;
     std::vector<double> depths;  // of a rule's nodes, bands within nodes
     std::vector<double> sum;     // of weight × τ, each band
@@ -85,14 +87,14 @@ bool three_do(double varies, double wide, double step) {
 }
 
 bool seven_do(double varies, double wide, double step) {
-    if (wide >= 1.0 && varies >= flat * step) return false;
+    if (wide >= 1.0 && varies >= flat_exponent * step) return false;
     return varies <= step && std::min(wide, 1.0) * varies <= some * step;
 }
 
 class Mean {
   public:
     Mean(const OpticalDepth& depth, const Receiver& receiver, const Hull* hull, double height,
-         std::size_t bands, Scratch& scratch)
+         std::size_t bands, PolygonScratch& scratch)
         : depth_(depth),
           receiver_(receiver),
           hull_(hull),
@@ -166,7 +168,7 @@ class Mean {
     // The triangle's weight is its closed form; where it is narrow the nodes' sum is as good.
     double exact_weight(const Triangle& t, double wide, std::size_t nodes) const {
         const std::array<Point, 3> corners{t.a, t.b, t.c};
-        return wide < narrow          ? height_ * sum_of_weights(nodes)
+        return wide < narrow_spread   ? height_ * sum_of_weights(nodes)
                : receiver_.on_surface ? projected_solid_angle(corners, receiver_.normal)
                                       : solid_angle(corners);
     }
@@ -217,7 +219,7 @@ class Mean {
     const Hull* hull_;
     double height_;  // of the receiver over the polygon's plane
     std::size_t bands_;
-    Scratch& scratch_;
+    PolygonScratch& scratch_;
     std::array<double, 7> weights_{};
     double total_ = 0.0;
 };
@@ -263,7 +265,7 @@ void mean_transmittance(const OpticalDepth& depth, const Receiver& receiver,
                         std::span<double> mean) {
     std::fill(mean.begin(), mean.end(), 1.0);
     if (depth.transparent() || corners.size() < 3) return;
-    thread_local Scratch scratch;
+    thread_local PolygonScratch scratch;
     auto& open = scratch.open;
     open.clear();
     for (std::size_t k = 1; k + 1 < corners.size(); ++k)

@@ -33,12 +33,12 @@ bool convex(const std::vector<Point>& corners) {
 }
 
 // Triangles of all the surfaces, welded where corners are the same to the bit.
-struct Shape {
+struct BodyTriangles {
     std::vector<Point> points;
     std::vector<std::array<std::uint32_t, 3>> triangles;
     std::vector<std::size_t> surface;  // of each triangle
 
-    Shape(const Scene& scene, std::span<const std::size_t> surfaces) {
+    BodyTriangles(const Scene& scene, std::span<const std::size_t> surfaces) {
         const auto before = [](const Point& a, const Point& b) {
             return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
         };
@@ -78,7 +78,7 @@ struct Shape {
 };
 
 // Adds the bodies; of each of their facets, in order, its surface.
-std::vector<std::size_t> add_bodies(const Shape& shape, mesh::BaseMesh& mesh) {
+std::vector<std::size_t> add_bodies(const BodyTriangles& shape, mesh::BaseMesh& mesh) {
     const auto component = shape.components();
     std::vector<std::size_t> surface;
     for (std::uint32_t c = 0; c < component.size(); ++c) {
@@ -175,7 +175,7 @@ std::string why_no_bodies(const Scene& scene, std::span<const std::size_t> surfa
         }
     }
     mesh::BaseMesh mesh = still.mesh;
-    add_bodies(Shape(scene, surfaces), mesh);
+    add_bodies(BodyTriangles(scene, surfaces), mesh);
     return holds_a_place(scene, mesh) ? "holds a camera, a light or the point of a medium" : "";
 }
 
@@ -183,7 +183,7 @@ Enclosure with_bodies(const Enclosure& still, const Scene& scene,
                       std::span<const std::size_t> surfaces) {
     Enclosure e = still;
     const std::size_t first = e.mesh.facets.size();
-    const auto surface = add_bodies(Shape(scene, surfaces), e.mesh);
+    const auto surface = add_bodies(BodyTriangles(scene, surfaces), e.mesh);
     std::map<std::pair<std::size_t, Side>, std::uint32_t> sides;
     for (std::size_t f = first; f < e.mesh.facets.size(); ++f) {
         auto& of_facet = e.facet_sides.emplace_back(std::array{none, none});

@@ -13,8 +13,6 @@
 namespace tyndall::radiosity {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 // Centres this many times the sum of the radii apart, the kernel is smooth over two pieces.
 constexpr double far_apart = 0.9;
 
@@ -22,7 +20,7 @@ constexpr double far_apart = 0.9;
 constexpr double most_depth = 4.0;
 
 // Pairs kept for subdivision: beyond, those with the smallest errors are settled.
-constexpr std::size_t most_pairs = 1u << 16;
+constexpr std::size_t most_piece_pairs = 1u << 16;
 
 std::span<const CubatureNode> rule_of(const Piece& piece, Degree degree) {
     return piece.solid ? tet_rule(degree) : triangle_rule(degree);
@@ -190,7 +188,7 @@ void PairIntegral::add(Pair pair, Work& work) const {
     pair.first_difference = pair.factor * std::abs(two.value - one.value);
     pair.error = std::max(doubt(pair) * pair.first_difference, pair.factor * two.shadow_error());
     if (pair.error == 0.0) return work.settle(pair.value, 0.0);
-    if (work.pairs.size() >= most_pairs) work.shrink();
+    if (work.pairs.size() >= most_piece_pairs) work.shrink();
     work.push(pair);
 }
 

@@ -10,14 +10,14 @@
 namespace tyndall::radiosity {
 namespace {
 
-constexpr int across = 64, down = 48;  // rays
+constexpr int rays_across = 64, rays_down = 48;
 
 // Sums over rays and bands: radiance, and squares of its errors.
-struct Sums {
+struct ErrorSums {
     double radiance = 0.0, elements = 0.0, gathers = 0.0, coarse = 0.0;
     std::size_t rays = 0;
 
-    void operator+=(const Sums& other) {
+    void operator+=(const ErrorSums& other) {
         radiance += other.radiance;
         elements += other.elements;
         gathers += other.gathers;
@@ -51,7 +51,7 @@ class ErrorWalk {
         }
     }
 
-    void add_to(Sums& sums) const {
+    void add_to(ErrorSums& sums) const {
         sums.radiance += radiance_;
         sums.elements += squares_;
         sums.gathers += gathers_ * gathers_;
@@ -110,14 +110,15 @@ class ErrorWalk {
 };
 
 // Over the view's rays, in the bands from `first` up to `end`.
-Sums sums_of(const Solution& solution, const LeafErrors& errors, const View& view,
-             std::size_t first, std::size_t end) {
+ErrorSums sums_of(const Solution& solution, const LeafErrors& errors, const View& view,
+                  std::size_t first, std::size_t end) {
     const mesh::BaseMesh& base = solution.enclosure->mesh;
     const mesh::TetId eye = mesh::locate(base, view.eye);
-    std::vector<Sums> lines(down);
-    tbb::parallel_for(0, down, [&](int y) {
-        for (int x = 0; x < across; ++x) {
-            mesh::Ray ray = view.ray(2.0 * (x + 0.5) / across - 1.0, 1.0 - 2.0 * (y + 0.5) / down);
+    std::vector<ErrorSums> lines(rays_down);
+    tbb::parallel_for(0, rays_down, [&](int y) {
+        for (int x = 0; x < rays_across; ++x) {
+            mesh::Ray ray =
+                view.ray(2.0 * (x + 0.5) / rays_across - 1.0, 1.0 - 2.0 * (y + 0.5) / rays_down);
             const mesh::Entry entry = mesh::entry_near(base, ray, view.eye, eye);
             ray.origin += entry.distance * ray.direction;
             for (std::size_t b = first; b < end; ++b) {
@@ -132,8 +133,8 @@ Sums sums_of(const Solution& solution, const LeafErrors& errors, const View& vie
         }
     });
     // In order: the same bits at any number of threads.
-    Sums sum;
-    for (const Sums& line : lines) sum += line;
+    ErrorSums sum;
+    for (const ErrorSums& line : lines) sum += line;
     return sum;
 }
 
@@ -141,7 +142,7 @@ Sums sums_of(const Solution& solution, const LeafErrors& errors, const View& vie
 
 std::optional<ErrorParts> picture_error(const Solution& solution, const LeafErrors& errors,
                                         const View& view) {
-    const Sums sum = sums_of(solution, errors, view, 0, solution.enclosure->bands);
+    const ErrorSums sum = sums_of(solution, errors, view, 0, solution.enclosure->bands);
     const double count = static_cast<double>(sum.rays), mean = sum.radiance / count;
     if (!(mean > 0.0)) return {};
     return ErrorParts{std::sqrt(sum.elements / count) / mean, std::sqrt(sum.gathers / count) / mean,
@@ -158,7 +159,7 @@ Spectrum picture_radiance(const Solution& solution, const View& view) {
     exact.patch_direct.resize(solution.forest.patch_count());
     Spectrum result;
     for (std::size_t b = 0; b < bands; ++b) {
-        const Sums sum = sums_of(solution, exact, view, b, b + 1);
+        const ErrorSums sum = sums_of(solution, exact, view, b, b + 1);
         result.push_back(sum.radiance / static_cast<double>(sum.rays));
     }
     return result;

@@ -53,6 +53,11 @@ class PointSet {
 // A 64-bit hash for seeds: independent streams for (seed, index).
 std::uint64_t hash_seed(std::uint64_t seed, std::uint64_t index);
 
+// The upper 53 of 64 bits as a number in [0, 1).
+inline double unit_number(std::uint64_t bits) {
+    return static_cast<double>(bits >> 11) * 0x1p-53;
+}
+
 // Uniform on the unit sphere, from two numbers in [0, 1).
 mesh::Direction uniform_direction(double u, double v);
 // Cosine-weighted about the unit vector n: density cosθ/π.

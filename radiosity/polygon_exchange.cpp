@@ -16,11 +16,11 @@ namespace {
 using std::numbers::pi;
 
 // Gauss-Legendre on [0, 1], ten points.
-constexpr std::array<double, 10> nodes{
+constexpr std::array<double, 10> gauss_nodes{
     0.013046735741414128, 0.06746831665550773, 0.16029521585048778, 0.2833023029353764,
     0.4255628305091844,   0.5744371694908156,  0.7166976970646236,  0.8397047841495122,
     0.9325316833444923,   0.9869532642585859};
-constexpr std::array<double, 10> weights{
+constexpr std::array<double, 10> gauss_weights{
     0.03333567215434407, 0.07472567457529030, 0.1095431812579910, 0.1346333596549982,
     0.1477621123573764,  0.1477621123573764,  0.1346333596549982, 0.1095431812579910,
     0.07472567457529030, 0.03333567215434407};
@@ -35,8 +35,8 @@ double integrate(double from, double to, double depth, F&& f) {
     const double piece = (to - from) / pieces;
     double sum = 0.0;
     for (int k = 0; k < pieces; ++k)
-        for (std::size_t n = 0; n < nodes.size(); ++n)
-            sum += weights[n] * f(from + piece * (k + nodes[n]));
+        for (std::size_t n = 0; n < gauss_nodes.size(); ++n)
+            sum += gauss_weights[n] * f(from + piece * (k + gauss_nodes[n]));
     return piece * sum;
 }
 

@@ -18,10 +18,6 @@ namespace {
 using std::numbers::pi;
 constexpr double relative_step = 1e-7;  // of the scene's diagonal: beyond rounding, below notice
 
-double diagonal(const mesh::BaseMesh& mesh) {
-    return glm::distance(mesh.hull_min, mesh.hull_max);
-}
-
 }  // namespace
 
 Probe::Probe(const Solution& solution, const ProbeOptions& options)

@@ -9,10 +9,6 @@
 namespace tyndall::radiosity {
 namespace {
 
-// A zone is seen as an integral along chords. Its function keeps the mean, so that along a chord
-// what is left has either sign: about half of its deviation remains.
-constexpr double chord_share = 0.5;
-
 // Pictures compute direct light on surfaces anew where it matters (render/line_of_sight.h), so that
 // what patches hold counts for less than what zones hold: for what they reflect.
 constexpr double seen_patch_share = 0.1;

@@ -12,8 +12,6 @@
 namespace tyndall::radiosity {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 // The box, and whether anything of the line from begin to end is in it.
 bool clip(Point low, Point high, Point origin, Direction direction, double& begin, double& end) {
     for (int axis = 0; axis < 3; ++axis) {

@@ -11,6 +11,7 @@
 namespace tyndall::radiosity {
 
 using mesh::Direction;
+using mesh::infinity;
 using mesh::Point;
 
 // What a grid says about places outside its box.

@@ -10,7 +10,7 @@ namespace {
 
 // A net of 32 points finds the lit share of a leaf to a tenth or better; what is left has either
 // sign from leaf to leaf.
-const PointSet& points() {
+const PointSet& net_points() {
     static const PointSet set(32);
     return set;
 }
@@ -24,15 +24,15 @@ void SampledMeans::evaluate(ZoneId zone, double* mean) const {
     const auto& corners = forest_[zone].corners;
     const TetId tet = forest_.base_tet(zone);
     std::vector<double> incident(enclosure_.bands);
-    for (std::size_t k = 0; k < points().size(); ++k) {
-        const auto u = points()(k, hash_seed(zone_seed, zone.value));
+    for (std::size_t k = 0; k < net_points().size(); ++k) {
+        const auto u = net_points()(k, hash_seed(zone_seed, zone.value));
         const auto w = uniform_in_tet(u[0], u[1], u[2]);
         Point x(0.0);
         for (int c = 0; c < 4; ++c) x += w[c] * forest_.point(corners[c]);
         const OpenPlace place = open_place(enclosure_, x, tet);
         light_.at_zone(place.x, place.tet, incident);
         for (std::size_t b = 0; b < incident.size(); ++b)
-            mean[b] += incident[b] / static_cast<double>(points().size());
+            mean[b] += incident[b] / static_cast<double>(net_points().size());
     }
 }
 
@@ -42,14 +42,14 @@ void SampledMeans::evaluate(PatchId patch, double* mean) const {
         mesh::tet_before(enclosure_.mesh, forest_.base_facet_side(patch), forest_.centroid(patch));
     const Direction normal = normal_of(forest_, patch);
     std::vector<double> incident(enclosure_.bands);
-    for (std::size_t k = 0; k < points().size(); ++k) {
-        const auto u = points()(k, hash_seed(patch_seed, patch.value));
+    for (std::size_t k = 0; k < net_points().size(); ++k) {
+        const auto u = net_points()(k, hash_seed(patch_seed, patch.value));
         const auto w = uniform_in_triangle(u[0], u[1]);
         Point x(0.0);
         for (int c = 0; c < 3; ++c) x += w[c] * forest_.point(corners[c]);
         light_.at_patch(x, normal, tet, incident);
         for (std::size_t b = 0; b < incident.size(); ++b)
-            mean[b] += incident[b] / static_cast<double>(points().size());
+            mean[b] += incident[b] / static_cast<double>(net_points().size());
     }
 }
 

@@ -9,6 +9,8 @@
 #include <glm/vec2.hpp>
 #include <vector>
 
+#include "radiosity/point_set.h"
+
 namespace tyndall::radiosity {
 namespace {
 
@@ -21,21 +23,17 @@ std::uint64_t mix(std::uint64_t z) {
     return z ^ (z >> 31);
 }
 
-double unit(std::uint64_t bits) {
-    return static_cast<double>(bits >> 11) * 0x1p-53;
-}
-
 glm::dvec2 shift_at(Point x) {
     std::uint64_t h = 0x9e3779b97f4a7c15ull;
     for (int axis = 0; axis < 3; ++axis) h = mix(h ^ std::bit_cast<std::uint64_t>(x[axis]));
-    return {unit(h), unit(mix(h + 1))};
+    return {unit_number(h), unit_number(mix(h + 1))};
 }
 
 // Uniform points of a convex polygon from the unit square: the fan's triangles share the first
 // coordinate.
-class Sampler {
+class PolygonSampler {
   public:
-    Sampler(std::span<const Point> corners, std::vector<double>& cumulated)
+    PolygonSampler(std::span<const Point> corners, std::vector<double>& cumulated)
         : corners_(corners), cumulated_(cumulated) {
         cumulated_.assign(1, 0.0);
         for (std::size_t k = 1; k + 1 < corners.size(); ++k)
@@ -66,7 +64,7 @@ void sampled_transmittance(const Occlusion& occlusion, const OpticalDepth& depth
     thread_local std::vector<double> cumulated, depths;
     depths.assign(mean.size(), 0.0);
     std::fill(mean.begin(), mean.end(), 0.0);
-    const Sampler sample(corners, cumulated);
+    const PolygonSampler sample(corners, cumulated);
     const glm::dvec2 shift = shift_at(receiver.x);
     double total = 0.0;
     for (std::size_t k = 0; k < rays; ++k) {

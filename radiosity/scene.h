@@ -15,6 +15,7 @@
 namespace tyndall::radiosity {
 
 using mesh::Direction;
+using mesh::infinity;
 using mesh::Point;
 
 // One value a band.

@@ -19,9 +19,9 @@ constexpr double snapped = 0.003;
 // Of a penumbra's width: H is continuous there, and what is snapped shows as that much of its rise.
 constexpr double snapped_in_penumbra = 0.002;
 // Seen from an edge, lights narrower than this have no extent, wider ones no sharp shadow [rad].
-constexpr double narrow = 1e-7, wide = 0.5;
+constexpr double narrow_light = 1e-7, wide_light = 0.5;
 // Pairs of sheets and base tets beyond which no more sheets are followed.
-constexpr std::size_t most_pairs = 50'000'000;
+constexpr std::size_t most_sheet_pairs = 50'000'000;
 
 }  // namespace
 
@@ -132,7 +132,7 @@ void ShadowBoundaries::spread(const mesh::BaseMesh& mesh) {
     std::size_t pairs = 0;
     std::vector<std::uint32_t> reached;
     std::vector<std::uint32_t> seen(mesh.tets.size(), none);  // by the sheet of that index
-    for (std::uint32_t k = 0; k < sheets_.size() && pairs < most_pairs; ++k) {
+    for (std::uint32_t k = 0; k < sheets_.size() && pairs < most_sheet_pairs; ++k) {
         const auto try_tet = [&](std::uint32_t t) {
             if (seen[t] == k) return;
             seen[t] = k;
@@ -227,7 +227,7 @@ ShadowSheet ShadowBoundaries::sheet_at(double angle, const Fan& fan, const Edge&
         const Direction inward = end == 0 ? fan.along : -fan.along;
         double widest = 1e300;
         for (const Point& light : source.points) {
-            if (std::abs(fan.angle(source, light) - angle) > narrow) continue;
+            if (std::abs(fan.angle(source, light) - angle) > narrow_light) continue;
             const Direction ray = -glm::normalize(source.from(corner, light));
             const double lean = glm::dot(ray, inward);
             if (lean >= widest) continue;
@@ -246,8 +246,8 @@ void ShadowBoundaries::add_sheets(const Edge& edge, const Source& source) {
     const Fan fan(edge, source);
     for (const Point& light : source.points)  // the edge points to the light, or bounds it
         if (!(glm::length(fan.across(source, light)) > tolerance_)) return;
-    if (!(fan.high - fan.low < wide)) return;
-    const bool sharp = fan.high - fan.low < narrow;
+    if (!(fan.high - fan.low < wide_light)) return;
+    const bool sharp = fan.high - fan.low < narrow_light;
     std::vector<ShadowSheet> made;
     for (const double angle :
          sharp ? std::vector{0.5 * (fan.low + fan.high)} : std::vector{fan.low, fan.high}) {

@@ -20,8 +20,6 @@ constexpr double aside = 1e-5;
 constexpr double least_spread = 0.1;
 // Sheets at one element whose jumps are measured, the largest sections first.
 constexpr std::size_t most_measured = 12;
-// Zones are seen along chords, see refine_direct.cpp.
-constexpr double chord_share = 0.5;
 
 template <std::size_t count>
 std::array<Point, count> points_of(const Forest& forest,

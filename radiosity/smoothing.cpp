@@ -18,7 +18,7 @@ constexpr std::array<std::string_view, 3> names{"none", "least_squares", "scalin
 // Of a row's capacity: a hundred times what rounding leaves of sums of some hundred entries.
 constexpr double closes = 1e-12;
 
-using Vector = std::vector<double>;
+using Values = std::vector<double>;
 
 // Rows of a symmetric matrix, entries on both sides of the diagonal; the last column is outside.
 struct Symmetric {
@@ -68,7 +68,7 @@ void merge(const ExchangeAreas& raw, const Symmetric& back, std::size_t i, Visit
 }
 
 // S̄ on the union of the patterns of S and S^T.
-Symmetric mean_of(const ExchangeAreas& raw, const Vector& capacity) {
+Symmetric mean_of(const ExchangeAreas& raw, const Values& capacity) {
     const std::size_t n = raw.rows();
     const Symmetric back = transposed(raw);
     Symmetric mean;
@@ -94,19 +94,19 @@ Symmetric mean_of(const ExchangeAreas& raw, const Vector& capacity) {
 // with their sum.
 class LeastSquares {
   public:
-    void set(const Vector& multipliers) { multipliers_ = multipliers; }
+    void set(const Values& multipliers) { multipliers_ = multipliers; }
     double value(std::size_t i, std::size_t j, double mean) const {
         return std::max(0.0, mean + mean * mean * (multipliers_[i] + multipliers_[j]));  // (32)
     }
     static double weight(double mean, double value) { return value > 0.0 ? mean * mean : 0.0; }
 
   private:
-    Vector multipliers_;
+    Values multipliers_;
 };
 
 class Scaling {
   public:
-    void set(const Vector& multipliers) {
+    void set(const Values& multipliers) {
         factors_.resize(multipliers.size());
         std::transform(multipliers.begin(), multipliers.end(), factors_.begin(),
                        [](double m) { return std::exp(m); });
@@ -117,14 +117,14 @@ class Scaling {
     static double weight(double, double value) { return value; }
 
   private:
-    Vector factors_;
+    Values factors_;
 };
 
 // Finds the multipliers with which rows close.
 template <class Law>
 class Closing {
   public:
-    Closing(const Symmetric& mean, const Vector& capacity)
+    Closing(const Symmetric& mean, const Values& capacity)
         : mean_(mean), capacity_(capacity), multipliers_(capacity.size() + 1, 0.0) {
         law_.set(multipliers_);
         missing_ = missing();
@@ -152,15 +152,15 @@ class Closing {
     // Newton's steps, each halved until rows miss less than before.
     void newton(std::size_t steps) {
         for (std::size_t step = 0; step < steps && !closed(); ++step) {
-            const Vector direction = solve();
-            const Vector from = multipliers_;
+            const Values direction = solve();
+            const Values from = multipliers_;
             const double before = total(missing_);
             bool better = false;
             for (double share = 1.0; share > 1e-4 && !better; share *= 0.5) {
                 for (std::size_t i = 0; i < direction.size(); ++i)
                     multipliers_[i] = from[i] + share * direction[i];
                 law_.set(multipliers_);
-                Vector missed = missing();
+                Values missed = missing();
                 better = total(missed) < before;
                 if (better) missing_ = std::move(missed);
             }
@@ -172,20 +172,20 @@ class Closing {
     }
 
   private:
-    static double total(const Vector& v) {
+    static double total(const Values& v) {
         double sum = 0.0;
         for (const double x : v) sum += std::abs(x);
         return sum;
     }
-    static double dot(const Vector& a, const Vector& b) {
+    static double dot(const Values& a, const Values& b) {
         return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
     }
 
     // Σ_j f(column, S̄_ij) of every row.
     template <class Term>
-    Vector sums(Term&& term) {
+    Values sums(Term&& term) {
         ++passes_;
-        Vector result(mean_.rows());
+        Values result(mean_.rows());
         tbb::parallel_for(std::size_t(0), result.size(), [&](std::size_t i) {
             double sum = 0.0;
             for (std::size_t k = mean_.starts[i]; k < mean_.starts[i + 1]; ++k)
@@ -196,8 +196,8 @@ class Closing {
     }
 
     // c_i − Σ_j S'_ij.
-    Vector missing() {
-        Vector result =
+    Values missing() {
+        Values result =
             sums([&](std::size_t i, std::size_t j, double m) { return law_.value(i, j, m); });
         for (std::size_t i = 0; i < result.size(); ++i) result[i] = capacity_[i] - result[i];
         return result;
@@ -211,13 +211,13 @@ class Closing {
     // Laplacian: no eigenvalue below 0, and 0 only where elements fall into two groups that
     // exchange with each other alone; the right-hand side is then in its range, or rows cannot
     // close. Four digits are enough of a Newton step.
-    Vector solve() {
-        Vector inverse = sums([&](std::size_t i, std::size_t j, double m) {
+    Values solve() {
+        Values inverse = sums([&](std::size_t i, std::size_t j, double m) {
             return weight(i, j, m) * (i == j ? 2.0 : 1.0);
         });
         for (double& d : inverse) d = d > 0.0 ? 1.0 / d : 0.0;
         const std::size_t n = inverse.size();
-        Vector x(n, 0.0), residual = missing_, z(n), p(n + 1, 0.0);
+        Values x(n, 0.0), residual = missing_, z(n), p(n + 1, 0.0);
         const auto precondition = [&] {
             for (std::size_t i = 0; i < n; ++i) z[i] = inverse[i] * residual[i];
             return dot(z, residual);
@@ -226,7 +226,7 @@ class Closing {
         std::copy(z.begin(), z.end(), p.begin());
         const double enough = 1e-8 * rho;  // a square
         for (std::size_t iteration = 0; iteration < 500 && rho > enough; ++iteration) {
-            const Vector q = sums([&](std::size_t i, std::size_t j, double m) {
+            const Values q = sums([&](std::size_t i, std::size_t j, double m) {
                 return weight(i, j, m) * (p[i] + p[j]);
             });
             const double curvature = dot(q, p);
@@ -244,9 +244,9 @@ class Closing {
     }
 
     const Symmetric& mean_;
-    const Vector& capacity_;
+    const Values& capacity_;
     Law law_;
-    Vector multipliers_, missing_;
+    Values multipliers_, missing_;
     std::size_t passes_ = 0;
 };
 
@@ -269,14 +269,14 @@ void apply(Symmetric& mean, const Closing<Law>& closing, SmoothingReport& report
 }
 
 // What smoothing made, in the form of rows, and how far each row was moved.
-ExchangeAreas finished(const ExchangeAreas& raw, Symmetric smoothed, const Vector& capacity,
+ExchangeAreas finished(const ExchangeAreas& raw, Symmetric smoothed, const Values& capacity,
                        SmoothingReport& report) {
     ExchangeAreas result;
     const std::size_t n = smoothed.rows(), entries = smoothed.columns.size();
     result.values.resize(entries);
     result.remainders.resize(entries);
     if (!raw.moments.empty()) result.moments.resize(entries, glm::vec3(0.0f));
-    Vector moved(n, 0.0);
+    Values moved(n, 0.0);
     tbb::parallel_for(std::size_t(0), n, [&](std::size_t i) {
         std::size_t r = raw.starts[i];
         double change = 0.0;
@@ -314,7 +314,7 @@ ExchangeAreas smooth(ExchangeAreas raw, const Elements& elements, std::size_t ba
     SmoothingReport report{.method = method,
                            .raw_closure_error = closure_error(raw, elements, band),
                            .raw_reciprocity_error = reciprocity_error(raw, elements)};
-    Vector capacity(elements.size());
+    Values capacity(elements.size());
     for (std::size_t i = 0; i < capacity.size(); ++i)
         capacity[i] = elements.capacity[i * elements.bands + band];
     Symmetric mean = mean_of(raw, capacity);

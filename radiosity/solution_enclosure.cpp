@@ -13,7 +13,7 @@ namespace tyndall::radiosity {
 namespace {
 
 template <class Tag, std::size_t N>
-std::vector<std::uint32_t> flat(const std::vector<std::array<mesh::Id<Tag>, N>>& rows) {
+std::vector<std::uint32_t> flattened(const std::vector<std::array<mesh::Id<Tag>, N>>& rows) {
     std::vector<std::uint32_t> values;
     values.reserve(N * rows.size());
     for (const auto& row : rows)
@@ -59,8 +59,8 @@ void write_facets(Hdf5Writer& file, const Enclosure& e) {
         opaque.push_back(facet.opacity == mesh::Opacity::opaque);
         for (const auto side : e.facet_sides[f]) sides.push_back(side);
     }
-    file.array(enclosure_path + "/facet_corners", flat(corners), 3);
-    file.array(enclosure_path + "/facet_tets", flat(tets), 2);
+    file.array(enclosure_path + "/facet_corners", flattened(corners), 3);
+    file.array(enclosure_path + "/facet_tets", flattened(tets), 2);
     file.array(enclosure_path + "/facet_source", sources);
     file.array(enclosure_path + "/facet_opaque", opaque);
     file.array(enclosure_path + "/facet_sides", sides, 2);
@@ -139,9 +139,9 @@ void write_enclosure(Hdf5Writer& file, const Enclosure& e) {
     std::vector<double> points;
     for (const Point& p : e.mesh.points) points.insert(points.end(), {p.x, p.y, p.z});
     file.array(enclosure_path + "/points", points, 3);
-    file.array(enclosure_path + "/tets", flat(e.mesh.tets), 4);
-    file.array(enclosure_path + "/neighbours", flat(e.mesh.neighbours), 4);
-    file.array(enclosure_path + "/tet_facets", flat(e.mesh.tet_facets), 4);
+    file.array(enclosure_path + "/tets", flattened(e.mesh.tets), 4);
+    file.array(enclosure_path + "/neighbours", flattened(e.mesh.neighbours), 4);
+    file.array(enclosure_path + "/tet_facets", flattened(e.mesh.tet_facets), 4);
     std::vector<std::uint32_t> regions;
     for (const RegionId region : e.mesh.regions) regions.push_back(region.value);
     file.array(enclosure_path + "/regions", regions);

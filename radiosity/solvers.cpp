@@ -16,7 +16,7 @@
 namespace tyndall::radiosity {
 namespace {
 
-constexpr NamedSolver named[]{
+constexpr NamedSolver named_solvers[]{
     {.name = "gmres", .solver = solve_gmres},
     {.name = "bicgstab", .solver = solve_bicgstab},
     {.name = "gauss_seidel", .solver = solve_gauss_seidel, .relaxes = true},
@@ -33,7 +33,7 @@ constexpr Family families[]{{"gathering", "gauss_seidel"}, {"krylov", "gmres"}};
 // The names of the solvers that have an ability.
 std::string able(bool NamedSolver::*ability) {
     std::vector<std::string_view> names;
-    for (const auto& solver : named)
+    for (const auto& solver : named_solvers)
         if (solver.*ability) names.push_back(solver.name);
     return fmt::format("{}", fmt::join(names, ", "));
 }
@@ -49,12 +49,12 @@ SolverTrouble unknown_to(const NamedSolver& solver, std::string_view key, std::s
 }  // namespace
 
 std::span<const NamedSolver> solvers() {
-    return named;
+    return named_solvers;
 }
 
 std::vector<std::string_view> solver_names() {
     std::vector<std::string_view> names;
-    for (const auto& solver : named) names.push_back(solver.name);
+    for (const auto& solver : named_solvers) names.push_back(solver.name);
     for (const auto& family : families) names.push_back(family.name);
     return names;
 }
@@ -62,8 +62,8 @@ std::vector<std::string_view> solver_names() {
 const NamedSolver& solver_named(std::string_view name) {
     const auto family = std::ranges::find(families, name, &Family::name);
     const auto wanted = family == std::end(families) ? name : family->member;
-    const auto found = std::ranges::find(named, wanted, &NamedSolver::name);
-    if (found != std::end(named)) return *found;
+    const auto found = std::ranges::find(named_solvers, wanted, &NamedSolver::name);
+    if (found != std::end(named_solvers)) return *found;
     throw mesh::InputError(fmt::format("there is no solver \"{}\". Choose one of {}.", name,
                                        fmt::join(solver_names(), ", ")));
 }

@@ -27,7 +27,7 @@ Spectrum incident_at(const Solution& s, Node node) {
 }
 
 // The mean being taken, and what it is divided by.
-struct Sums {
+struct TemperatureSums {
     TemperatureRange range{0.0, std::numeric_limits<double>::infinity(), 0.0};
     double measure = 0.0;
 
@@ -86,7 +86,7 @@ double temperature_of(const Solution& s, ZoneId zone) {
 void report_temperatures(Solution& s) {
     const Enclosure& e = *s.enclosure;
     if (!e.thermal) return;
-    std::map<std::string, Sums> sums;
+    std::map<std::string, TemperatureSums> sums;
     std::map<std::string, std::size_t> without;
     const auto add = [&](const std::string& name, double temperature, double size) {
         if (temperature >= 0.0)

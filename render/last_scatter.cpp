@@ -24,7 +24,7 @@ using radiosity::none;
 
 constexpr std::size_t stratified = 8;  // samples that share a net
 // Parts of lights within which Φ is taken at the middle: at g = 0.8 off by 1 % at most [rad].
-constexpr double widest_part = 0.15;
+constexpr double widest_seen_part = 0.15;
 constexpr double hidden = 1e-9;  // transmittance behind which nothing shows
 
 class LastScatter {
@@ -257,7 +257,7 @@ class LastScatter {
             return;
         }
         light_.visit_zone(
-            x, tet, widest_part, [&](Direction towards, std::span<const double> irradiance) {
+            x, tet, widest_seen_part, [&](Direction towards, std::span<const double> irradiance) {
                 const double cosine = glm::dot(ray, towards);
                 for (std::size_t b = 0; b < bands_; ++b)
                     scattered[b] += media_.scattered(medium, b, cosine) * irradiance[b];

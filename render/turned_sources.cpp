@@ -20,7 +20,7 @@ namespace {
 
 // Parts of lights within which Φ is taken at the middle [rad]. What zones send to each other is
 // seen from afar, and through cubes.
-constexpr double widest_part = 0.3;
+constexpr double widest_gathered_part = 0.3;
 constexpr std::size_t lit_leaves = 400;  // that speak for all
 
 }  // namespace
@@ -130,7 +130,7 @@ TurnedSources::LeafParts TurnedSources::parts_at(ZoneId leaf, const radiosity::D
         for (const auto by : {Coefficients::reduced, Coefficients::whole}) {
             auto& seen = result.by[std::size_t(by)];
             const auto& light = by == Coefficients::whole ? whole : reduced;
-            light.visit_zone(x, tet, widest_part,
+            light.visit_zone(x, tet, widest_gathered_part,
                              [&](Direction towards, std::span<const double> irradiance) {
                                  seen.towards.push_back(towards);
                                  for (std::size_t b = 0; b < bands_; ++b) {

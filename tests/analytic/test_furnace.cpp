@@ -60,7 +60,7 @@ double rms_departure(const Elements& e, const std::vector<double>& radiance) {
 }
 
 // Of elements that take part: a medium may be clear in a band.
-double largest_departure(const Elements& e, const std::vector<double>& values) {
+double departure_of_elements(const Elements& e, const std::vector<double>& values) {
     double most = 0.0;
     for (std::size_t k = 0; k < values.size(); ++k)
         if (e.capacity[k] > 0.0) most = std::max(most, std::abs(values[k] - 1.0));
@@ -149,8 +149,8 @@ TEST_CASE("Furnace: everything in rows is 1", "[furnace][long]") {
         const Solution solution = solve_adaptively(enclosure, quick_furnace);
         // Rows are kept in single precision and close to 1e-7 at worst, 1e-9 in the mean; the
         // residual is 1e-9; 1/(1 − a) makes up to a hundred times that.
-        CHECK(largest_departure(solution.coarse.elements, solution.coarse.radiance) < 1e-6);
-        CHECK(largest_departure(solution.coarse.elements, solution.coarse.incident) < 1e-6);
+        CHECK(departure_of_elements(solution.coarse.elements, solution.coarse.radiance) < 1e-6);
+        CHECK(departure_of_elements(solution.coarse.elements, solution.coarse.incident) < 1e-6);
         CHECK(solution.report.closure_error < 1e-7);
         // What is gathered of it, and interpolated, is 1 as well.
         double most = 0.0;

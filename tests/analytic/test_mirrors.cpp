@@ -13,7 +13,8 @@ using namespace tyndall::radiosity;
 
 namespace {
 
-std::shared_ptr<const Enclosure> enclosed(const Scene& scene, Mirrors mirrors = Mirrors::walked) {
+std::shared_ptr<const Enclosure> with_mirrors(const Scene& scene,
+                                              Mirrors mirrors = Mirrors::walked) {
     return std::make_shared<const Enclosure>(make_enclosure(scene, {.mirrors = mirrors}));
 }
 
@@ -39,12 +40,6 @@ const SolveOptions quick{.refinement = Refinement::none,
                          .rays = 64,
                          .gather_rays = 64,
                          .solver_tolerance = 1e-9};
-
-double largest_departure(const std::vector<double>& values) {
-    double most = 0.0;
-    for (const double value : values) most = std::max(most, std::abs(value - 1.0));
-    return most;
-}
 
 // Where both boxes are probed, in space and on walls.
 struct Values {
@@ -81,8 +76,8 @@ TEST_CASE("Mirrors: a furnace is a furnace", "[furnace]") {
     // As without mirrors: rows close to 1e-7 in single precision, and 1/(1 − a) makes up to a
     // hundred times that.
     CHECK(solution.report.closure_error < 1e-7);
-    CHECK(largest_departure(solution.coarse.radiance) < 1e-6);
-    CHECK(largest_departure(solution.coarse.incident) < 1e-6);
+    CHECK(test::largest_departure(solution.coarse.radiance) < 1e-6);
+    CHECK(test::largest_departure(solution.coarse.incident) < 1e-6);
     // What is gathered, and interpolated. A mirror's own weight ends at 1e-4, and what is left is
     // taken to be like the rest.
     double most = 0.0;
@@ -120,12 +115,13 @@ TEST_CASE("Mirrors: a furnace whose walls are split off", "[furnace][long]") {
 
 TEST_CASE("Mirrors: a box with a mirror is half of the doubled box", "[solution][long]") {
     const SolveOptions options{.error = 0.05, .element_size = 0.3, .max_elements = 8000};
-    const Solution half = solve_adaptively(enclosed(test::mirrored_box(false)), options);
-    const Solution whole = solve_adaptively(enclosed(test::mirrored_box(true)), options);
+    const Solution half = solve_adaptively(with_mirrors(test::mirrored_box(false)), options);
+    const Solution whole = solve_adaptively(with_mirrors(test::mirrored_box(true)), options);
     const Values expected = probed(whole, 4096);
     const Values few = probed(half, 256), many = probed(half, 4096);
     const Values scattered = probed(
-        solve_adaptively(enclosed(test::mirrored_box(false), Mirrors::scattered), options), 4096);
+        solve_adaptively(with_mirrors(test::mirrored_box(false), Mirrors::scattered), options),
+        4096);
     const double first = departure(few.in_space, expected.in_space);
     const double in_space = departure(many.in_space, expected.in_space);
     const double on_walls = departure(many.on_walls, expected.on_walls);
@@ -166,9 +162,9 @@ TEST_CASE("Mirrors: four mirrors around a column make the infinite slab", "[solu
         scene.media = {test::medium(thickness, 1.0)};
         // Zones of an optical depth of 2 at most are thin enough where they hold linear J.
         const Solution solution =
-            solve_adaptively(enclosed(scene), {.refinement = Refinement::uniform,
-                                               .direct_light = DirectLightMode::rows,
-                                               .element_size = 0.08});
+            solve_adaptively(with_mirrors(scene), {.refinement = Refinement::uniform,
+                                                   .direct_light = DirectLightMode::rows,
+                                                   .element_size = 0.08});
         const Probe probe(solution, {.rays = 1024});
         double into_cold = 0.0, out_of_hot = 0.0;
         for (const double x : {0.02, 0.05, 0.09}) {

@@ -14,7 +14,6 @@ using namespace tyndall::radiosity;
 namespace {
 
 using std::numbers::pi;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 double black(double temperature) {
     return stefan_boltzmann * std::pow(temperature, 4) / pi;

@@ -64,12 +64,6 @@ Enclosure two_media() {
     return e;
 }
 
-double largest_departure(const std::vector<double>& values) {
-    double most = 0.0;
-    for (const double v : values) most = std::max(most, std::abs(v - 1.0));
-    return most;
-}
-
 void check_furnace(const std::string& name, Enclosure enclosure) {
     test::make_furnace(enclosure);
     const auto furnace = std::make_shared<const Enclosure>(std::move(enclosure));
@@ -83,10 +77,10 @@ void check_furnace(const std::string& name, Enclosure enclosure) {
                   << s.raw_reciprocity_error << ", rows moved by " << s.moved_mean << " to "
                   << s.moved_max << ", " << s.clamped << " entries at 0, " << s.iterations
                   << " passes; closure " << report.closure_error << ", x off by "
-                  << largest_departure(solution.coarse.radiance));
+                  << test::largest_departure(solution.coarse.radiance));
         CHECK(s.converged);
-        CHECK(largest_departure(solution.coarse.radiance) < 1e-10);
-        CHECK(largest_departure(solution.coarse.incident) < 1e-10);
+        CHECK(test::largest_departure(solution.coarse.radiance) < 1e-10);
+        CHECK(test::largest_departure(solution.coarse.incident) < 1e-10);
         CHECK(report.closure_error < 1e-10);
         CHECK(report.reciprocity_error < 1e-10);
         // What was there to mend: 64 rays a row leave S_ij and S_ji of base elements far apart, and

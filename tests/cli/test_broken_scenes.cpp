@@ -39,7 +39,7 @@ std::vector<fs::path> scenes_in(const fs::path& folder) {
     return paths;
 }
 
-std::string message_of(const fs::path& path) {
+std::string scene_message(const fs::path& path) {
     try {
         cli::read_scene_file(path);
     } catch (const mesh::InputError& error) {
@@ -55,7 +55,7 @@ TEST_CASE("Broken scenes are refused, with place, name and advice") {
     CHECK(paths.size() >= 249);
     for (const fs::path& path : paths) {
         const Expected expected = expectation(path);
-        const std::string message = message_of(path);
+        const std::string message = scene_message(path);
         INFO(path.filename().string() << ": " << message);
         CHECK(message.rfind(path.string() + ":" + expected.place + ": ", 0) == 0);
         CHECK(message.find(expected.part) != std::string::npos);
@@ -83,14 +83,15 @@ TEST_CASE("Broken files of grey gases are refused, with place and advice") {
 TEST_CASE("Scenes that only the mesh shows to be broken are read") {
     for (const auto& path : scenes_in(fs::path(TYNDALL_SOURCE_DIR) / "tests/broken/enclosure")) {
         INFO(path.filename().string());
-        CHECK(message_of(path) == "");
+        CHECK(scene_message(path) == "");
     }
 }
 
 TEST_CASE("A scene that is missing, a directory, or cut short anywhere is refused") {
     const fs::path folder = fs::path(TYNDALL_SOURCE_DIR) / "tests/broken";
-    CHECK(message_of(folder / "no_such.toml").find("there is no such file") != std::string::npos);
-    CHECK(message_of(folder).find("this is a directory") != std::string::npos);
+    CHECK(scene_message(folder / "no_such.toml").find("there is no such file") !=
+          std::string::npos);
+    CHECK(scene_message(folder).find("this is a directory") != std::string::npos);
 
     // No prefix of a scene may do other than read or throw InputError.
     std::ifstream stream(fs::path(TYNDALL_SOURCE_DIR) / "examples/scenes/window_shafts.toml");
@@ -99,7 +100,7 @@ TEST_CASE("A scene that is missing, a directory, or cut short anywhere is refuse
     const fs::path path = fs::path(TYNDALL_BINARY_DIR) / "cut_short.toml";
     for (std::size_t size = 0; size < text.size(); size += 13) {
         std::ofstream(path, std::ios::binary) << text.substr(0, size);
-        CHECK_NOTHROW(message_of(path));
+        CHECK_NOTHROW(scene_message(path));
     }
     fs::remove(path);
 }

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // Half of the room is empty, half of it haze.
-constexpr const char* scene = R"(format = 1
+constexpr const char* half_hazy_scene = R"(format = 1
 material = [ { name = "grey", reflectance = 0.5 },
              { name = "lamp", reflectance = 0.0, emission = 100.0 } ]
 surface  = [ { name = "room", material = "grey", room = { min = [0, 0, 0], max = [2, 1, 1] } },
@@ -31,7 +31,7 @@ camera   = [ { name = "main", eye = [0.9, 0.1, 0.5], target = [0.3, 0.6, 0.4], f
 )";
 
 struct Folder : test::Workplace {
-    Folder() : test::Workplace("solutions") { write("scene.toml", scene); }
+    Folder() : test::Workplace("solutions") { write("scene.toml", half_hazy_scene); }
 };
 
 radiosity::Solution solved(const Folder& folder, double size, double emission = 100.0) {

@@ -3,6 +3,7 @@
 
 #include "support/catch.h"
 #include "support/foggy_box.h"
+#include "support/occurrences.h"
 #include "support/program.h"
 
 using namespace tyndall;
@@ -10,19 +11,13 @@ using Json = nlohmann::json;
 
 namespace {
 
-std::string complaint(const test::Workplace& place, const std::string& arguments) {
+std::string export_complaint(const test::Workplace& place, const std::string& arguments) {
     CAPTURE(arguments);
     const auto outcome = place.run(arguments);
     CHECK(outcome.code == 1);
     CHECK(outcome.out == "");
     test::check_one_message(outcome);
     return outcome.err;
-}
-
-std::size_t count(const std::string& text, const std::string& part) {
-    std::size_t found = 0;
-    for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++found;
-    return found;
 }
 
 }  // namespace
@@ -64,10 +59,10 @@ TEST_CASE("export makes the same room of a scene and of its solution", "[export]
     place.good("export box.toml -o deep/er.xml");
     CHECK_THAT(place.read("deep/er.xml"), Contains("\"er_parts/room_floor.ply\""));
     CHECK(place.has("deep/er_parts/room_floor.ply"));
-    CHECK(count(place.read("room.xml"), "<sensor") == 2);
+    CHECK(test::occurrences(place.read("room.xml"), "<sensor") == 2);
     place.good("export box.toml -o side.xml --camera side --samples 7");
     const auto side = place.read("side.xml");
-    CHECK(count(side, "<sensor") == 1);
+    CHECK(test::occurrences(side, "<sensor") == 1);
     CHECK_THAT(side, Contains("camera_side") && Contains("sample_count\" value=\"7\""));
     CHECK_THAT(place.good("export box.toml -o two.pbrt"),
                Contains("note     pbrt has one camera a file: this is \"main\""));
@@ -92,20 +87,21 @@ TEST_CASE("export says what is wrong", "[export]") {
     const test::Workplace place("export_wrong");
     place.write("box.toml", test::foggy_box);
     CHECK_THAT(
-        complaint(place, "export box.toml -o room.stl"),
+        export_complaint(place, "export box.toml -o room.stl"),
         Contains("'room.stl'") && Contains(".vtu (vtu), .msh (gmsh)") && Contains("--format"));
-    CHECK_THAT(complaint(place, "export box.toml -o room.x --format blender"),
+    CHECK_THAT(export_complaint(place, "export box.toml -o room.x --format blender"),
                Contains("there is no format \"blender\"") && Contains("mitsuba, pbrt"));
-    CHECK_THAT(complaint(place, "export box.toml -o room.vtu"),
+    CHECK_THAT(export_complaint(place, "export box.toml -o room.vtu"),
                Contains("'box.toml' is a scene") && Contains("tyndall run box.toml"));
-    CHECK_THAT(complaint(place, "export box.toml -o room.msh --samples 4"),
+    CHECK_THAT(export_complaint(place, "export box.toml -o room.msh --samples 4"),
                Contains("--camera, --band and --samples are of mitsuba and pbrt"));
-    CHECK_THAT(complaint(place, "export box.toml -o room.xml --camera top"),
+    CHECK_THAT(export_complaint(place, "export box.toml -o room.xml --camera top"),
                Contains("there is no camera \"top\""));
-    CHECK_THAT(complaint(place, "export box.toml -o room.xml --band 1"),
+    CHECK_THAT(export_complaint(place, "export box.toml -o room.xml --band 1"),
                Contains("--band 1: the scene has the bands 0 to 0"));
-    CHECK_THAT(complaint(place, "export nowhere -o room.vtu"), Contains("nowhere"));
-    CHECK_THAT(complaint(place, "export box.toml -o box.toml/room.xml"), Contains("box.toml"));
+    CHECK_THAT(export_complaint(place, "export nowhere -o room.vtu"), Contains("nowhere"));
+    CHECK_THAT(export_complaint(place, "export box.toml -o box.toml/room.xml"),
+               Contains("box.toml"));
     CHECK(place.run("export box.toml").code == 2);
     CHECK(!place.has("room.xml"));
 }

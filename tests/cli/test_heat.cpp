@@ -19,7 +19,7 @@ namespace {
 const fs::path folder = fs::path(TYNDALL_BINARY_DIR) / "heat";
 const fs::path gases = fs::path(TYNDALL_SOURCE_DIR) / "examples/scenes/gases";
 
-cli::SceneFile read(const std::string& text) {
+cli::SceneFile read_heated(const std::string& text) {
     fs::create_directories(folder);
     std::ofstream(folder / "scene.toml") << text;
     return cli::read_scene_file(folder / "scene.toml");
@@ -40,19 +40,20 @@ std::string wall(const std::string& what) {
 
 TEST_CASE("A flux belongs to both sides, a value a band, or one for bands of wavelengths",
           "[heat]") {
-    const auto grey = read("format = 1\n" + wall("flux = -20.0") + heated_room);
+    const auto grey = read_heated("format = 1\n" + wall("flux = -20.0") + heated_room);
     CHECK(grey.scene.materials[0].flux == radiosity::Spectrum{-20.0});
     CHECK(grey.scene.materials[0].emits == radiosity::EmittingSides::both);
-    const auto each = read("format = 1\nbands = 2\n" + wall("flux = [1.0, 2.0]") + heated_room);
+    const auto each =
+        read_heated("format = 1\nbands = 2\n" + wall("flux = [1.0, 2.0]") + heated_room);
     CHECK(each.scene.materials[0].flux == radiosity::Spectrum{1.0, 2.0});
     const auto all =
-        read("format = 1\nband_edges = [0, 3, inf]\n" + wall("flux = 5.0") + heated_room);
+        read_heated("format = 1\nband_edges = [0, 3, inf]\n" + wall("flux = 5.0") + heated_room);
     CHECK(all.scene.materials[0].flux == radiosity::Spectrum{5.0});
 }
 
 TEST_CASE("Band edges make bands, in micrometres, to infinity", "[heat]") {
-    const auto file =
-        read("format = 1\nband_edges = [0, 2.5, inf]\n" + wall("temperature = 1000") + heated_room);
+    const auto file = read_heated("format = 1\nband_edges = [0, 2.5, inf]\n" +
+                                  wall("temperature = 1000") + heated_room);
     CHECK(file.scene.bands == 2);
     const auto& edges = file.scene.spectral.band_edges;
     REQUIRE(edges.size() == 3);
@@ -64,7 +65,7 @@ TEST_CASE("Band edges make bands, in micrometres, to infinity", "[heat]") {
     CHECK(emission[0] == Approx(all * radiosity::planck_fraction(0.0025)));
     CHECK(emission[0] + emission[1] == Approx(all));
     // The scene that goes into solutions reads back.
-    CHECK(read(file.effective_toml).scene.spectral.band_edges == edges);
+    CHECK(read_heated(file.effective_toml).scene.spectral.band_edges == edges);
 }
 
 TEST_CASE("Grey gases: the files of the examples, and a medium of them beside soot", "[heat]") {
@@ -82,8 +83,8 @@ TEST_CASE("Grey gases: the files of the examples, and a medium of them beside so
         CHECK(emissivity == Approx(expected).margin(5e-4));
     }
     const auto file =
-        read("format = 1\ngrey_gases = \"" + (gases / "smith_1982_wet.toml").string() + "\"\n" +
-             wall("temperature = 500") + heated_room + R"(
+        read_heated("format = 1\ngrey_gases = \"" + (gases / "smith_1982_wet.toml").string() +
+                    "\"\n" + wall("temperature = 500") + heated_room + R"(
 [[medium]]
 name = "flame"
 partial_pressure = 20265
@@ -107,7 +108,7 @@ temperature = 1500
 
 TEST_CASE("Temperatures, net fluxes and settled emission survive files", "[heat]") {
     const auto file =
-        read("format = 1\nband_edges = [0, 4, inf]\n" + wall("flux = 0") + heated_room + R"(
+        read_heated("format = 1\nband_edges = [0, 4, inf]\n" + wall("flux = 0") + heated_room + R"(
 [[material]]
 name = "hot"
 reflectance = 0.1

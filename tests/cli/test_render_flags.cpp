@@ -22,7 +22,7 @@ const test::Workplace& solved_place() {
     return place;
 }
 
-std::string complaint(const std::string& arguments) {
+std::string crop_complaint(const std::string& arguments) {
     const auto outcome = solved_place().run(arguments);
     CHECK(outcome.code == 1);
     return outcome.err;
@@ -47,10 +47,11 @@ TEST_CASE("A crop is that part of the picture") {
             mean += a / 30.0;
         }
     CHECK(most < 0.2 * mean);
-    CHECK_THAT(complaint("render out -o part.pfm --crop 4,2,60,5"), Contains("Give a part of it"));
-    CHECK_THAT(complaint("render out -o part.pfm --crop 4,2,6"),
+    CHECK_THAT(crop_complaint("render out -o part.pfm --crop 4,2,60,5"),
+               Contains("Give a part of it"));
+    CHECK_THAT(crop_complaint("render out -o part.pfm --crop 4,2,6"),
                Contains("--crop") && Contains("left,top,width,height"));
-    CHECK_THAT(complaint("render out -o part.pfm --crop 4,2,x,1"), Contains("--crop"));
+    CHECK_THAT(crop_complaint("render out -o part.pfm --crop 4,2,x,1"), Contains("--crop"));
 }
 
 TEST_CASE("Elements in colours say what the colours stand for") {
@@ -69,14 +70,15 @@ TEST_CASE("Elements in colours say what the colours stand for") {
         place.good("render out -o field.png --json --field radiance --range 0.5,2"));
     CHECK(ranged.at("low") == 0.5);
     CHECK(ranged.at("high") == 2.0);
-    CHECK_THAT(complaint("render out -o f.png --field heat"), Contains("radiance, direct"));
-    CHECK_THAT(complaint("render out -o f.png --field radiance --range 2,1"),
+    CHECK_THAT(crop_complaint("render out -o f.png --field heat"), Contains("radiance, direct"));
+    CHECK_THAT(crop_complaint("render out -o f.png --field radiance --range 2,1"),
                Contains("lower end"));
-    CHECK_THAT(complaint("render out -o f.png --field radiance --range 0,1"), Contains("above 0"));
-    CHECK_THAT(complaint("render out -o f.png --slice 1,1,1,0,0,0"), Contains("normal 0,0,0"));
-    CHECK_THAT(complaint("render out -o f.png --slice 1,1"), Contains("or middle"));
-    CHECK_THAT(complaint("render out -o f.exr --field level"), Contains(".png"));
-    CHECK_THAT(complaint("render out -o f.exr --mesh"), Contains(".png"));
+    CHECK_THAT(crop_complaint("render out -o f.png --field radiance --range 0,1"),
+               Contains("above 0"));
+    CHECK_THAT(crop_complaint("render out -o f.png --slice 1,1,1,0,0,0"), Contains("normal 0,0,0"));
+    CHECK_THAT(crop_complaint("render out -o f.png --slice 1,1"), Contains("or middle"));
+    CHECK_THAT(crop_complaint("render out -o f.exr --field level"), Contains(".png"));
+    CHECK_THAT(crop_complaint("render out -o f.exr --mesh"), Contains(".png"));
     CHECK_FALSE(place.has("f.png"));
     place.good("render out -o mesh.png --mesh --quiet");
     CHECK(place.has("mesh.png"));
@@ -104,7 +106,7 @@ TEST_CASE("Another camera than that solved for is warned of, other projections a
     }
     for (const std::string tone : {"shoulder", "filmic", "reinhard", "linear"})
         place.good("render out -o tone.png --quiet --tone " + tone);
-    CHECK_THAT(complaint("render out -o tone.png --tone flat"), Contains("shoulder, filmic"));
+    CHECK_THAT(crop_complaint("render out -o tone.png --tone flat"), Contains("shoulder, filmic"));
 }
 
 TEST_CASE("compare knows regions and MAPE") {
@@ -119,5 +121,6 @@ TEST_CASE("compare knows regions and MAPE") {
     CHECK(compared("").at("mape").get<double>() == Approx(0.05).epsilon(0.01));
     CHECK(compared(" --region 0,0,2,2").at("rmse") == 0.0);
     CHECK(compared(" --region 2,0,2,2").at("rmse").get<double>() == Approx(0.1).epsilon(1e-5));
-    CHECK_THAT(complaint("compare b.pfm a.pfm --region 3,0,2,2"), Contains("Give a part of it"));
+    CHECK_THAT(crop_complaint("compare b.pfm a.pfm --region 3,0,2,2"),
+               Contains("Give a part of it"));
 }

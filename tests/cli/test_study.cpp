@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // A lamp over haze; a run of it takes half a second.
-constexpr const char* scene = R"(format = 1
+constexpr const char* hazy_scene = R"(format = 1
 material = [ { name = "grey", reflectance = 0.5 },
              { name = "lamp", reflectance = 0.0, emission = 100.0 } ]
 surface  = [ { name = "room", material = "grey", room = { min = [0, 0, 0], max = [1, 1, 1] } },
@@ -34,7 +34,7 @@ render   = { samples = 4 }
 
 struct StudyWorkplace : test::Workplace {
     explicit StudyWorkplace(const std::string& name = "study") : test::Workplace(name) {
-        write("scene.toml", scene);
+        write("scene.toml", hazy_scene);
     }
     // When the run was made; it is made anew where this changes.
     fs::file_time_type made(const std::string& slug) const {
@@ -128,7 +128,7 @@ TEST_CASE("A study runs its matrix, measures, plots, and keeps what is done", "[
     }
     SECTION("another scene: all is run again") {
         const auto before = place.made("refinement-uniform_element_size-0.6");
-        place.write("scene.toml", std::string(scene) + "environment = { radiance = 1.0 }\n");
+        place.write("scene.toml", std::string(hazy_scene) + "environment = { radiance = 1.0 }\n");
         CHECK(place.run("study study.toml -o out --quiet").code == 0);
         CHECK(place.made("refinement-uniform_element_size-0.6") != before);
     }
@@ -159,7 +159,7 @@ TEST_CASE("A run that fails is recorded, and the others go on", "[long]") {
     const StudyWorkplace place;
     // A medium outside the room shows only when the scene is meshed.
     place.write("scene.toml", [&] {
-        std::string text = scene;
+        std::string text = hazy_scene;
         const std::string haze = "albedo = 0.8 }";
         text.replace(text.find(haze), haze.size(), "albedo = 0.8, at = [0.5, 0.5, 0.5] }");
         return text;

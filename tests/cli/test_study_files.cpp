@@ -18,7 +18,7 @@ namespace {
 const fs::path source = TYNDALL_SOURCE_DIR;
 
 // All that `tyndall study` checks before its first run.
-std::string message_of(const fs::path& path) {
+std::string study_message(const fs::path& path) {
     try {
         const auto study = cli::read_study_file(path);
         for (const auto& run : cli::expand(study, {})) cli::scene_with(study, run.overrides);
@@ -58,7 +58,7 @@ TEST_CASE("Broken study files are refused, with place and advice") {
         REQUIRE(line.rfind(mark, 0) == 0);
         const auto space = line.find(' ', mark.size());
         const std::string place = line.substr(mark.size(), space - mark.size());
-        const std::string message = message_of(path);
+        const std::string message = study_message(path);
         INFO(path.filename().string() << ": " << message);
         CHECK(message.rfind(path.string() + ":" + place, 0) == 0);
         CHECK(message.find(line.substr(space + 1)) != std::string::npos);
@@ -67,14 +67,14 @@ TEST_CASE("Broken study files are refused, with place and advice") {
 }
 
 TEST_CASE("A study file that is missing or cut short anywhere is refused") {
-    CHECK(message_of(source / "nowhere.toml").find("nowhere.toml") != std::string::npos);
+    CHECK(study_message(source / "nowhere.toml").find("nowhere.toml") != std::string::npos);
     std::ifstream stream(source / "examples/studies/shafts_soft.toml");
     const std::string text{std::istreambuf_iterator<char>(stream), {}};
     REQUIRE(text.size() > 500);
     const fs::path path = fs::path(TYNDALL_BINARY_DIR) / "study_cut_short.toml";
     for (std::size_t size = 0; size < text.size(); size += 7) {
         std::ofstream(path, std::ios::binary) << text.substr(0, size);
-        CHECK_NOTHROW(message_of(path));
+        CHECK_NOTHROW(study_message(path));
     }
     fs::remove(path);
 }
@@ -85,7 +85,7 @@ TEST_CASE("The studies of the examples are sound") {
         if (entry.path().extension() != ".toml") continue;
         ++count;
         INFO(entry.path().filename().string());
-        CHECK(message_of(entry.path()) == "");
+        CHECK(study_message(entry.path()) == "");
     }
     CHECK(count >= 3);
 }

@@ -17,7 +17,7 @@ nlohmann::json meta_of(const std::string& page) {
     return nlohmann::json::parse(page.substr(at, page.find("</script>", at) - at));
 }
 
-std::string complaint(const test::Workplace& place, const std::string& arguments) {
+std::string view_complaint(const test::Workplace& place, const std::string& arguments) {
     const auto outcome = place.run(arguments);
     CHECK(outcome.code == 1);
     test::check_one_message(outcome);
@@ -70,10 +70,10 @@ TEST_CASE("A run writes a page, and view makes it again from the solution alone"
 
 TEST_CASE("view says what is wrong", "[view]") {
     const test::Workplace place("view_wrong");
-    CHECK_THAT(complaint(place, "view nowhere"), Contains("nowhere"));
+    CHECK_THAT(view_complaint(place, "view nowhere"), Contains("nowhere"));
     place.write("not.vtkhdf", "no solution");
-    CHECK_THAT(complaint(place, "view not.vtkhdf"), Contains("not.vtkhdf"));
-    CHECK_THAT(complaint(place, "view not.vtkhdf -o picture.png"), Contains(".html"));
+    CHECK_THAT(view_complaint(place, "view not.vtkhdf"), Contains("not.vtkhdf"));
+    CHECK_THAT(view_complaint(place, "view not.vtkhdf -o picture.png"), Contains(".html"));
     CHECK(!place.has("view.html"));
 }
 

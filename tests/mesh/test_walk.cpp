@@ -30,10 +30,6 @@ struct Tally {
     }
 };
 
-double diagonal(const BaseMesh& mesh) {
-    return glm::distance(mesh.hull_min, mesh.hull_max);
-}
-
 void walk_one(const BaseMesh& mesh, const test::Shot& shot, bool look_closely, Tally& tally) {
     const double tolerance = 1e-9 * diagonal(mesh);
     double t = 0.0;

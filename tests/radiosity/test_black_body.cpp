@@ -23,7 +23,6 @@ SpectralModel planck(std::vector<double> edges) {
     return model;
 }
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 

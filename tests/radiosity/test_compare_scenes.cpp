@@ -23,7 +23,7 @@ Scene with_lights() {
     return scene;
 }
 
-struct Case {
+struct EditCase {
     SceneChange change;
     std::string what;
     std::function<void(Scene&)> edit;
@@ -33,7 +33,7 @@ struct Case {
 
 TEST_CASE("Scenes are compared by what must be computed anew", "[animation]") {
     const Scene before = with_lights();
-    const Case cases[] = {
+    const EditCase cases[] = {
         {SceneChange::emission, "emission of material \"lamp\"",
          [](Scene& s) { s.materials[1].emission = {3.0}; }},
         {SceneChange::optics, "emission of material \"lamp\"",
@@ -81,7 +81,7 @@ TEST_CASE("Scenes are compared by what must be computed anew", "[animation]") {
          [](Scene& s) { s.surfaces[test::surface_named(s, "left")].material = 1; }},
         {SceneChange::geometry, "viewpoints", [](Scene& s) { s.viewpoints.clear(); }},
     };
-    for (const Case& one : cases) {
+    for (const EditCase& one : cases) {
         Scene after = before;
         one.edit(after);
         INFO(one.what);

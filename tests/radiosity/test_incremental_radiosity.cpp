@@ -33,7 +33,7 @@ Scene room(Spectrum lamp, Spectrum glow, Spectrum fog) {
     return scene;
 }
 
-SolveOptions cheap() {
+SolveOptions cheap_shots() {
     SolveOptions options;
     options.error = 0.2;
     options.rays = 32;
@@ -95,7 +95,7 @@ TEST_CASE("A sum of unit solutions is the full solve", "[animation][long]") {
     std::vector<Scene> scenes = {room({9, 9}, {1, 2}, {0.1, 0.1}), room({3, 6}, {4, 1}, {0.1, 0.1}),
                                  room({0, 0}, {4, 4}, {0.1, 0.1})};
     const Enclosure enclosure = make_enclosure(scenes[0]);
-    const auto shots = shoot_units(scenes, enclosure, cheap());
+    const auto shots = shoot_units(scenes, enclosure, cheap_shots());
     REQUIRE(shots.units.size() == 3);
     const Solution sum = superposed(shots, 1, scenes[1]);
 
@@ -106,8 +106,9 @@ TEST_CASE("A sum of unit solutions is the full solve", "[animation][long]") {
     frozen.begin_with =
         std::make_shared<const KeptMesh>(KeptMesh{enclosure.mesh, shots.units[0].forest});
     frozen.frozen = true;
-    const Solution full = solve_adaptively(
-        std::make_shared<const Enclosure>(make_enclosure(scenes[1])), cheap(), {}, {}, frozen);
+    const Solution full =
+        solve_adaptively(std::make_shared<const Enclosure>(make_enclosure(scenes[1])),
+                         cheap_shots(), {}, {}, frozen);
     CHECK(difference(sum, full) < 5e-3);
     CHECK(difference(superposed(shots, 0, scenes[0]), full) > 0.1);
 
@@ -129,7 +130,7 @@ TEST_CASE("A sum of unit solutions is the full solve", "[animation][long]") {
 TEST_CASE("One group is the mesh's own solve, nothing that shines is dark", "[animation]") {
     const std::vector<Scene> scenes = {room({4, 4}, {0, 0}, {0, 0}), room({1, 1}, {0, 0}, {0, 0})};
     const Enclosure enclosure = make_enclosure(scenes[0]);
-    const auto shots = shoot_units(scenes, enclosure, cheap());
+    const auto shots = shoot_units(scenes, enclosure, cheap_shots());
     CHECK(shots.solves == 1);
     const Solution whole = superposed(shots, 0, scenes[0]),
                    quarter = superposed(shots, 1, scenes[1]);
@@ -138,6 +139,6 @@ TEST_CASE("One group is the mesh's own solve, nothing that shines is dark", "[an
     CHECK(quarter.report.estimated_error == Approx(whole.report.estimated_error));
 
     const std::vector<Scene> dark = {room({0, 0}, {0, 0}, {0, 0})};
-    const auto none = shoot_units(dark, make_enclosure(dark[0]), cheap());
+    const auto none = shoot_units(dark, make_enclosure(dark[0]), cheap_shots());
     for (const double x : superposed(none, 0, dark[0]).coarse.radiance) CHECK(x == 0.0);
 }

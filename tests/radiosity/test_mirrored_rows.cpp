@@ -15,12 +15,12 @@ using namespace tyndall::radiosity;
 
 namespace {
 
-struct Rows {
+struct MirroredRows {
     Enclosure enclosure;
     Forest forest;
     Elements elements;
 
-    explicit Rows(const Scene& scene)
+    explicit MirroredRows(const Scene& scene)
         : enclosure(make_enclosure(scene)),
           forest(enclosure.mesh),
           elements((test::bisect_some(forest, 60), elements_of_leaves(enclosure, forest))) {}
@@ -46,7 +46,7 @@ Scene mirror_room(double specular, double extinction) {
 
 TEST_CASE("Rows with mirrors close, and become reciprocal with the rays", "[exchange]") {
     const double specular = GENERATE(0.8, 1.0);
-    const Rows rows(mirror_room(specular, 0.4));
+    const MirroredRows rows(mirror_room(specular, 0.4));
     const auto few = rows.made(64), many = rows.made(1024);
     CAPTURE(specular);
     // What rays keep at the end is spread like the rest of the row: they close as others do, to
@@ -63,7 +63,7 @@ TEST_CASE("Rows with mirrors close, and become reciprocal with the rays", "[exch
 
 TEST_CASE("A mirror's capacity is what it does not mirror, and its element is spread over it",
           "[exchange]") {
-    const Rows rows(mirror_room(0.8, 0.0));
+    const MirroredRows rows(mirror_room(0.8, 0.0));
     const Elements& e = rows.elements;
     for (std::size_t i = 0; i < e.patches.size(); ++i) {
         const auto& side = rows.enclosure.sides[side_of(rows.enclosure, rows.forest, e.patches[i])];
@@ -80,7 +80,7 @@ TEST_CASE("Two mirrors that face each other make a corridor without end", "[exch
     // at a right angle, infinitely long, one a unit wide: (1 + 1 − √2)/2 (Hottel's strings).
     Scene scene = mirror_room(1.0, 0.0);
     scene.surfaces[test::surface_named(scene, "room.floor")].material = 0;
-    const Rows rows(scene);
+    const MirroredRows rows(scene);
     const auto areas = rows.made(1024);
     double found = 0.0;
     for (std::size_t i = 0; i < areas.rows(); ++i)
@@ -97,7 +97,7 @@ TEST_CASE("Two mirrors that face each other make a corridor without end", "[exch
 
 TEST_CASE("The part of rows that comes by way of mirrors is a part of them", "[exchange]") {
     const auto radiance = GENERATE(Radiance::constant, Radiance::linear);
-    const Rows rows(mirror_room(0.8, 0.4));
+    const MirroredRows rows(mirror_room(0.8, 0.4));
     const auto all = rows.made(128, RowLegs::all, radiance);
     const auto part = rows.made(128, RowLegs::in_mirrors, radiance);
     REQUIRE(part.rows() == all.rows());
@@ -119,7 +119,7 @@ TEST_CASE("The part of rows that comes by way of mirrors is a part of them", "[e
 }
 
 TEST_CASE("Rows with level of detail go on at mirrors", "[exchange]") {
-    const Rows rows(mirror_room(0.8, 0.4));
+    const MirroredRows rows(mirror_room(0.8, 0.4));
     const auto areas = all_rows(exchange_walked, {rows.enclosure, rows.forest, rows.elements},
                                 {.rays = 64, .detail = 4.0, .progress = {}});
     REQUIRE(!areas.levels.empty());
@@ -127,7 +127,7 @@ TEST_CASE("Rows with level of detail go on at mirrors", "[exchange]") {
 }
 
 TEST_CASE("A ray that two perfect mirrors send to and fro for ever brings nothing", "[gather]") {
-    const Rows rows(mirror_room(1.0, 0.0));
+    const MirroredRows rows(mirror_room(1.0, 0.0));
     Fields sources;
     sources.resize(rows.forest, 1);
     for (std::size_t p = 0; p < rows.forest.patch_count(); ++p) {

@@ -44,7 +44,7 @@ std::shared_ptr<const Enclosure> with_box(Point corner) {
     return std::make_shared<const Enclosure>(with_bodies(still, scene, box_of(scene)));
 }
 
-SolveOptions cheap() {
+SolveOptions cheap_with_bodies() {
     SolveOptions options;
     options.error = 0.1;
     options.rays = 64;
@@ -55,13 +55,13 @@ SolveOptions cheap() {
 }
 
 // A refined forest, its elements and rows.
-struct Rows {
+struct RowsWithBox {
     std::shared_ptr<const Enclosure> enclosure;
     Forest forest;
     Elements elements;
     ExchangeOptions options;
 
-    Rows(Point corner, std::size_t rays) : enclosure(with_box(corner)) {
+    RowsWithBox(Point corner, std::size_t rays) : enclosure(with_box(corner)) {
         ElementMesh mesh(*enclosure);
         mesh.refine_to({0.7, 2000, 2000});
         forest = mesh.forest();
@@ -82,7 +82,7 @@ double relative(double a, double b) {
 }  // namespace
 
 TEST_CASE("Moved rows are those walked anew", "[moving]") {
-    const Rows before(there, 64), now(elsewhere, 64);
+    const RowsWithBox before(there, 64), now(elsewhere, 64);
     const ExchangeAreas kept = before.walked(), walked = now.walked();
     std::atomic<std::size_t> rays = 0;
     const ExchangeAreas moved =
@@ -111,7 +111,7 @@ TEST_CASE("Moved rows are those walked anew", "[moving]") {
 
 TEST_CASE("A body in the tetrahedra is the box that they conform to", "[moving][long]") {
     const Scene scene = room_with_box(there);
-    SolveOptions options = cheap();
+    SolveOptions options = cheap_with_bodies();
     options.refinement = Refinement::none;
     options.rays = 256;
     const Solution body = solve_adaptively(with_box(there), options);
@@ -136,7 +136,7 @@ TEST_CASE("Furnace: a room with a body in it has radiance 1 everywhere", "[movin
     scene.media[0].emission = {1.0};
     const auto surfaces = box_of(scene);
     const Enclosure still = make_enclosure(without_surfaces(scene, surfaces));
-    SolveOptions options = cheap();
+    SolveOptions options = cheap_with_bodies();
     options.direct_light = DirectLightMode::rows;
     const Solution solution = solve_adaptively(
         std::make_shared<const Enclosure>(with_bodies(still, scene, surfaces)), options);
@@ -164,7 +164,7 @@ TEST_CASE("What a body covers is not open", "[moving]") {
 }
 
 TEST_CASE("A solve after a body has moved is the full solve's", "[moving][long]") {
-    SolveOptions options = cheap();
+    SolveOptions options = cheap_with_bodies();
     options.error = 0.5;
     options.element_size = 1.0;
     options.max_elements = 1200;
@@ -192,7 +192,7 @@ TEST_CASE("A solve after a body has moved is the full solve's", "[moving][long]"
 }
 
 TEST_CASE("A solution file keeps bodies", "[moving]") {
-    SolveOptions options = cheap();
+    SolveOptions options = cheap_with_bodies();
     options.refinement = Refinement::none;
     options.direct_light = DirectLightMode::rows;
     options.element_size = 1.0;

@@ -18,11 +18,11 @@ constexpr Smoothing methods[]{Smoothing::least_squares, Smoothing::scaling};
 // Entry [i][j], outside last; rows of the elements alone.
 using Matrix = std::vector<std::vector<double>>;
 
-struct Case {
+struct RowsCase {
     Matrix raw;
     Elements elements;
 
-    Case(Matrix matrix, const std::vector<double>& capacity) : raw(std::move(matrix)) {
+    RowsCase(Matrix matrix, const std::vector<double>& capacity) : raw(std::move(matrix)) {
         elements.patches.resize(capacity.size());
         elements.capacity = capacity;
     }
@@ -54,7 +54,7 @@ Matrix dense(const ExchangeAreas& areas) {
 
 // A symmetric matrix of n elements whose rows close, with a share of its pairs, and outside for
 // every third element.
-Case exact(std::size_t n, double filled, std::uint64_t seed) {
+RowsCase exact(std::size_t n, double filled, std::uint64_t seed) {
     test::Random random(seed);
     Matrix s(n, std::vector<double>(n + 1, 0.0));
     std::vector<double> capacity(n, 0.0);
@@ -71,8 +71,8 @@ Case exact(std::size_t n, double filled, std::uint64_t seed) {
 }
 
 // The same with entries off by up to `noise`, and one of twenty lost.
-Case noisy(std::size_t n, double filled, double noise, std::uint64_t seed) {
-    Case result = exact(n, filled, seed);
+RowsCase noisy(std::size_t n, double filled, double noise, std::uint64_t seed) {
+    RowsCase result = exact(n, filled, seed);
     test::Random random(seed + 1000);
     for (auto& row : result.raw)
         for (double& entry : row) {
@@ -82,13 +82,13 @@ Case noisy(std::size_t n, double filled, double noise, std::uint64_t seed) {
     return result;
 }
 
-double mean(const Case& c, std::size_t i, std::size_t j) {
+double mean(const RowsCase& c, std::size_t i, std::size_t j) {
     return j == c.raw.size() ? c.raw[i][j] : 0.5 * (c.raw[i][j] + c.raw[j][i]);
 }
 
 // Σ_ij (S'_ij − S̄_ij)² / S̄_ij² over the whole matrix, outside's row as its column: what least
 // squares makes least. (To S instead of S̄ it is farther by a constant.)
-double squares(const Case& c, const Matrix& smoothed) {
+double squares(const RowsCase& c, const Matrix& smoothed) {
     double sum = 0.0;
     for (std::size_t i = 0; i < c.raw.size(); ++i)
         for (std::size_t j = 0; j <= c.raw.size(); ++j)
@@ -98,7 +98,7 @@ double squares(const Case& c, const Matrix& smoothed) {
 }
 
 // Σ_ij S'_ij ln(S'_ij / S̄_ij) − S'_ij + S̄_ij: what scaling makes least.
-double divergence(const Case& c, const Matrix& smoothed) {
+double divergence(const RowsCase& c, const Matrix& smoothed) {
     double sum = 0.0;
     for (std::size_t i = 0; i < c.raw.size(); ++i)
         for (std::size_t j = 0; j <= c.raw.size(); ++j)
@@ -114,7 +114,7 @@ TEST_CASE("Smoothed rows are reciprocal, close, and are not negative", "[smoothi
     for (const auto method : methods)
         for (const std::size_t n : {3, 10, 60})
             for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-                const Case c = noisy(n, 0.3, 0.4, seed);
+                const RowsCase c = noisy(n, 0.3, 0.4, seed);
                 CAPTURE(smoothing_name(method), n, seed);
                 const ExchangeAreas areas = c.smoothed(method);
                 REQUIRE(areas.smoothing);
@@ -148,7 +148,7 @@ TEST_CASE("Smoothed rows are reciprocal, close, and are not negative", "[smoothi
 TEST_CASE("What is right is not moved by smoothing", "[smoothing]") {
     for (const auto method : methods)
         for (const std::size_t n : {3, 10, 60}) {
-            const Case c = exact(n, 0.3, n);
+            const RowsCase c = exact(n, 0.3, n);
             CAPTURE(smoothing_name(method), n);
             const ExchangeAreas areas = c.smoothed(method);
             // 48 bits an entry.
@@ -159,7 +159,7 @@ TEST_CASE("What is right is not moved by smoothing", "[smoothing]") {
 
 TEST_CASE("Each smoothing moves least by its own measure", "[smoothing]") {
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-        const Case c = noisy(20, 0.4, 0.4, seed);
+        const RowsCase c = noisy(20, 0.4, 0.4, seed);
         const Matrix squared = dense(c.smoothed(Smoothing::least_squares));
         const Matrix scaled = dense(c.smoothed(Smoothing::scaling));
         INFO("squares " << squares(c, squared) << " " << squares(c, scaled) << ", divergence "
@@ -188,7 +188,7 @@ TEST_CASE("Each smoothing moves least by its own measure", "[smoothing]") {
 TEST_CASE("Smoothing of one element in closed form", "[smoothing]") {
     // A zone that lights itself and outside. Least squares: λ (2 S_11² + S_1o²) is what is missing.
     const double self = 0.5, out = 1.2, capacity = 2.0;
-    const Case c({{self, out}}, {capacity});
+    const RowsCase c({{self, out}}, {capacity});
     const double multiplier = (capacity - self - out) / (2.0 * self * self + out * out);
     const Matrix squared = dense(c.smoothed(Smoothing::least_squares));
     CHECK(squared[0][0] == Approx(self + 2.0 * self * self * multiplier).epsilon(1e-12));
@@ -205,7 +205,7 @@ TEST_CASE("Smoothing of one element in closed form", "[smoothing]") {
 TEST_CASE("Entries that would become negative are 0 and the rest goes on", "[smoothing]") {
     // 1 to itself and 1 to outside where there is room for 0.1: without the bound λ = −1.9/3 and
     // S'_11 = 1 + 2 λ < 0.
-    const Case c({{1.0, 1.0}}, {0.1});
+    const RowsCase c({{1.0, 1.0}}, {0.1});
     const ExchangeAreas areas = c.smoothed(Smoothing::least_squares);
     CHECK(areas.smoothing->converged);
     CHECK(areas.smoothing->clamped == 1);
@@ -214,7 +214,7 @@ TEST_CASE("Entries that would become negative are 0 and the rest goes on", "[smo
     // Among many: small entries stay where large ones go to 0, and all still closes.
     std::size_t clamped = 0;
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-        Case rough = noisy(30, 0.4, 0.98, seed);
+        RowsCase rough = noisy(30, 0.4, 0.98, seed);
         for (double& entry : rough.raw[3]) entry *= 8.0;
         const ExchangeAreas smoothed = rough.smoothed(Smoothing::least_squares);
         CAPTURE(seed);
@@ -227,7 +227,7 @@ TEST_CASE("Entries that would become negative are 0 and the rest goes on", "[smo
 
 TEST_CASE("Rows that cannot close are said to be so", "[smoothing]") {
     // Two patches that see each other alone, one twice the other.
-    const Case c({{0.0, 2.0, 0.0}, {1.0, 0.0, 0.0}}, {2.0, 1.0});
+    const RowsCase c({{0.0, 2.0, 0.0}, {1.0, 0.0, 0.0}}, {2.0, 1.0});
     for (const auto method : methods) {
         const ExchangeAreas areas = c.smoothed(method);
         CAPTURE(smoothing_name(method));
@@ -240,7 +240,7 @@ TEST_CASE("Rows that cannot close are said to be so", "[smoothing]") {
 }
 
 TEST_CASE("Smoothing scales moments with their entries", "[smoothing]") {
-    const Case c({{0.0, 1.0, 1.0}, {2.0, 0.5, 0.0}}, {2.0, 2.5});
+    const RowsCase c({{0.0, 1.0, 1.0}, {2.0, 0.5, 0.0}}, {2.0, 2.5});
     ExchangeAreas raw = c.rows();
     raw.moments = {{1, 2, 3}, {0, 0, 0}, {0, 1, 0}, {0, 0, 2}};
     const ExchangeAreas smoothed = smooth(raw, c.elements, 0, Smoothing::scaling);
@@ -253,7 +253,7 @@ TEST_CASE("Smoothing scales moments with their entries", "[smoothing]") {
 
 TEST_CASE("Elements without capacity have no part in smoothing", "[smoothing]") {
     // A medium with extinction in another band only.
-    const Case c({{0.5, 0.0, 1.2}, {0.0, 0.0, 0.0}}, {2.0, 0.0});
+    const RowsCase c({{0.5, 0.0, 1.2}, {0.0, 0.0, 0.0}}, {2.0, 0.0});
     for (const auto method : methods) {
         const ExchangeAreas areas = c.smoothed(method);
         CHECK(areas.smoothing->converged);
@@ -262,7 +262,7 @@ TEST_CASE("Elements without capacity have no part in smoothing", "[smoothing]") 
 }
 
 TEST_CASE("Smoothing refuses level of detail", "[smoothing]") {
-    const Case c = exact(3, 0.5, 1);
+    const RowsCase c = exact(3, 0.5, 1);
     ExchangeAreas raw = c.rows();
     raw.levels.parent.assign(5, none);
     CHECK_THROWS_AS(smooth(raw, c.elements, 0, Smoothing::scaling), mesh::InputError);

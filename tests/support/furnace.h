@@ -1,6 +1,10 @@
 // An enclosure all at one temperature, in which everything has radiance 1.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
 #include "radiosity/enclosure.h"
 
 namespace tyndall::test {
@@ -17,6 +21,13 @@ inline void make_furnace(radiosity::Enclosure& e) {
     }
     e.environment.assign(e.bands, 1.0);
     e.lights.clear();
+}
+
+// Of radiances from the furnace's.
+inline double largest_departure(const std::vector<double>& values) {
+    double most = 0.0;
+    for (const double value : values) most = std::max(most, std::abs(value - 1.0));
+    return most;
 }
 
 }  // namespace tyndall::test

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "support/catch.h"
+#include "support/occurrences.h"
 #include "support/well_formed.h"
 #include "view/markup.h"
 #include "view/plot_axis.h"
@@ -14,12 +15,6 @@ using namespace tyndall;
 using namespace tyndall::view;
 
 namespace {
-
-std::size_t count(const std::string& text, const std::string& part) {
-    std::size_t n = 0;
-    for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
-    return n;
-}
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
@@ -51,9 +46,10 @@ TEST_CASE("Curves have titles, and leave out what a logarithm cannot show", "[vi
     CHECK(test::well_formed(svg));
     CHECK_THAT(svg, Contains("<title>Error &amp; &lt;cost&gt;</title><desc>What it is</desc>") &&
                         Contains("role=\"img\"") && Contains("a&lt;b") && Contains("goal"));
-    CHECK(count(svg, "<polyline class=\"curve style0\"") == 1);
-    CHECK(count(svg, "<circle class=\"mark style0\"") == 3);  // two points, and the legend's
-    CHECK(count(svg, "nan") == 0);
+    CHECK(test::occurrences(svg, "<polyline class=\"curve style0\"") == 1);
+    CHECK(test::occurrences(svg, "<circle class=\"mark style0\"") ==
+          3);  // two points, and the legend's
+    CHECK(test::occurrences(svg, "nan") == 0);
     CHECK(curve_chart(words, {{"one", {{1, 1}}}}, AxisScale::linear).empty());
     CHECK(curve_chart(words, {{"none", {{1, 0}, {2, unknown}}}}, AxisScale::linear).empty());
 }
@@ -70,7 +66,7 @@ TEST_CASE("Bars reach to either side of zero as far as their values say", "[view
     };
     // Written to a hundredth of a pixel.
     CHECK(width("style0") == Approx(2.0 * width("style1")).margin(0.02));
-    CHECK(count(svg, "nan") == 0);
+    CHECK(test::occurrences(svg, "nan") == 0);
     CHECK(bar_chart({}, {}).empty());
 }
 
@@ -97,7 +93,7 @@ TEST_CASE("Histograms count every number once", "[view]") {
     CHECK(shares.counts[0][10] == 1);
     const auto svg = histogram_chart({"Level", "", "level", "elements"}, levels);
     CHECK(test::well_formed(svg));
-    CHECK(count(svg, "<rect") == 3);
+    CHECK(test::occurrences(svg, "<rect") == 3);
     CHECK(histogram_chart({}, whole_histogram({"a"}, {{}})).empty());
 }
 

@@ -8,6 +8,7 @@
 #include "radiosity/adaptive.h"
 #include "radiosity/report_json.h"
 #include "support/catch.h"
+#include "support/occurrences.h"
 #include "support/path_scenes.h"
 #include "support/rooms.h"
 #include "support/well_formed.h"
@@ -47,12 +48,6 @@ const radiosity::Solution& nasty_solution() {
     return solution;
 }
 
-std::size_t count(const std::string& text, const std::string& part) {
-    std::size_t n = 0;
-    for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
-    return n;
-}
-
 std::string cell(const std::string& name, const std::string& value) {
     return "<th scope=\"row\">" + view::escaped(name) + "</th><td>" + view::escaped(value);
 }
@@ -78,11 +73,11 @@ TEST_CASE("A report is a page without a script, and names are text in it", "[vie
     options.notes = {"a <note>"};
     const std::string page = view::report_page(nasty_solution(), options);
     CHECK(view::report_page(nasty_solution(), options) == page);
-    CHECK(count(page, "<script") == 0);
-    CHECK(count(page, "{{") == 0);
-    CHECK(count(page, " src=") == 1);  // the picture, which is in the page
-    CHECK(count(page, "http") == 0);   // nothing is fetched
-    CHECK(count(page, "<h1>" + view::escaped(nasty) + "</h1>") == 1);
+    CHECK(test::occurrences(page, "<script") == 0);
+    CHECK(test::occurrences(page, "{{") == 0);
+    CHECK(test::occurrences(page, " src=") == 1);  // the picture, which is in the page
+    CHECK(test::occurrences(page, "http") == 0);   // nothing is fetched
+    CHECK(test::occurrences(page, "<h1>" + view::escaped(nasty) + "</h1>") == 1);
     // Style sheets are no markup.
     std::string body = page.substr(page.find("<body"));
     body.resize(body.rfind("</html>"));
@@ -93,13 +88,14 @@ TEST_CASE("A report is a page without a script, and names are text in it", "[vie
                    Contains("<td>&lt;b&gt;") && Contains("title = &#39;&lt;&amp;&gt;&#39;\n") &&
                    Contains(cell("<camera>", "perspective")) && Contains("<a href=\"view.html\">"));
     // Every chart has a title and a description, every table a caption.
-    CHECK(count(page, "<svg") >= 6);
-    CHECK(count(page, "<svg") == count(page, "<title>") - 1 - count(page, "><title>"));
-    CHECK(count(page, "<svg") == count(page, "<desc>"));
-    CHECK(count(page, "<table>") == count(page, "<caption>"));
+    CHECK(test::occurrences(page, "<svg") >= 6);
+    CHECK(test::occurrences(page, "<svg") ==
+          test::occurrences(page, "<title>") - 1 - test::occurrences(page, "><title>"));
+    CHECK(test::occurrences(page, "<svg") == test::occurrences(page, "<desc>"));
+    CHECK(test::occurrences(page, "<table>") == test::occurrences(page, "<caption>"));
     for (const char* id : {"warnings", "solution", "scene", "power", "passes", "mesh", "again"})
-        CHECK(count(page, "id=\"" + std::string(id) + "\"") == 1);
-    CHECK(count(page, "href=\"#") >= 7);
+        CHECK(test::occurrences(page, "id=\"" + std::string(id) + "\"") == 1);
+    CHECK(test::occurrences(page, "href=\"#") >= 7);
 }
 
 TEST_CASE("A report's figures are those of report.json", "[view]") {
@@ -156,8 +152,8 @@ TEST_CASE("A report says what is not known, and prints no NaN", "[view]") {
     s.report.stopped = true;
     const std::string page = view::report_page(s, {});
     const std::string body = page.substr(page.find("<body"));
-    CHECK(count(body, "nan") == count(body, "nano"));
-    CHECK(count(body, "inf") == 0);
+    CHECK(test::occurrences(body, "nan") == test::occurrences(body, "nano"));
+    CHECK(test::occurrences(body, "inf") == 0);
     CHECK_THAT(page, Contains(cell("reciprocity error", "not known")) &&
                          Contains("<th scope=\"row\">a&lt;b</th><td class=\"number\">300</td>"
                                   "<td class=\"number\">not known</td>") &&
@@ -165,8 +161,8 @@ TEST_CASE("A report says what is not known, and prints no NaN", "[view]") {
     // Without passes, camera, history: sections are left out, not empty.
     s.report = {};
     const std::string bare = view::report_page(s, {});
-    CHECK(count(bare, "id=\"passes\"") == 0);
-    CHECK(count(bare, "id=\"solver\"") == 0);
+    CHECK(test::occurrences(bare, "id=\"passes\"") == 0);
+    CHECK(test::occurrences(bare, "id=\"solver\"") == 0);
     CHECK_THAT(bare,
                Contains("There are no warnings") &&
                    Contains(cell("patches", std::to_string(nasty_solution().report.patches))) &&

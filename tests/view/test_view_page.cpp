@@ -6,6 +6,7 @@
 #include "radiosity/adaptive.h"
 #include "radiosity/direct_light.h"
 #include "support/catch.h"
+#include "support/occurrences.h"
 #include "support/path_scenes.h"
 #include "support/random_rays.h"
 #include "view/packed_arrays.h"
@@ -55,12 +56,6 @@ std::string gunzip(std::string bytes, std::size_t size) {
     inflateEnd(&stream);
     result.resize(stream.total_out);
     return result;
-}
-
-std::size_t count(const std::string& text, const std::string& part) {
-    std::size_t n = 0;
-    for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++n;
-    return n;
 }
 
 // Mean error of direct light on patches, over its mean, at random points of the leaves.
@@ -142,12 +137,13 @@ TEST_CASE("A page is one file with all in it, the same at any thread count", "[v
     const std::string page = view::view_page(slit_solution(), options);
     options.threads = 1;
     CHECK(view::view_page(slit_solution(), options) == page);
-    CHECK(count(page, "{{") == 0);
-    CHECK(count(page, "<h1>A &lt;/script&gt; &amp; &lt;b&gt;</h1>") == 1);
-    CHECK(count(page, "<script") == count(page, "</script>"));
+    CHECK(test::occurrences(page, "{{") == 0);
+    CHECK(test::occurrences(page, "<h1>A &lt;/script&gt; &amp; &lt;b&gt;</h1>") == 1);
+    CHECK(test::occurrences(page, "<script") == test::occurrences(page, "</script>"));
     // Nothing is fetched: the one address is the name of a format.
-    CHECK(count(page, "http") == count(page, "http://www.w3.org/2000/svg"));
-    CHECK(count(page, " src=") == 0);
+    CHECK(test::occurrences(page, "http") == test::occurrences(page, "http://www.w3.org/2000/svg"));
+    CHECK(test::occurrences(page, " src=") == 0);
     options.cameras.clear();
-    CHECK(count(view::view_page(slit_solution(), options), "\"name\":\"somewhere\"") == 1);
+    CHECK(test::occurrences(view::view_page(slit_solution(), options), "\"name\":\"somewhere\"") ==
+          1);
 }
