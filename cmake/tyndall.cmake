@@ -16,13 +16,13 @@ if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
         set(CMAKE_CXX_COMPILER_LAUNCHER ${TYNDALL_CCACHE})
     endif()
 endif()
-# A compiler cache does better without; there a file that lacks an include shows, too.
+# A compiler cache does better file by file; there a file that lacks an include shows, too.
 if(CMAKE_CXX_COMPILER_LAUNCHER)
-    set(precompile OFF)
+    set(grouped OFF)
 else()
-    set(precompile ON)
+    set(grouped ON)
 endif()
-option(TYNDALL_PRECOMPILE "Parse the headers that most files read once a folder" ${precompile})
+option(TYNDALL_GROUPED "Compile the files of a folder in groups, and the headers that most read once" ${grouped})
 
 add_library(tyndall_options INTERFACE)
 # -ffp-contract=off: the walk's edge tests must be antisymmetric to the last bit (mesh/walk.h), and
@@ -38,9 +38,11 @@ endif()
 add_library(tyndall_quick_compile INTERFACE)
 target_compile_options(tyndall_quick_compile INTERFACE $<$<CONFIG:Release>:-O1>)
 
-# tyndall_precompile(TARGET HEADERS...): headers of libraries that most files of the target read.
-function(tyndall_precompile target)
-    if(TYNDALL_PRECOMPILE)
+# tyndall_grouped(TARGET HEADERS...): with TYNDALL_GROUPED the target's files are compiled some at a time,
+# and before them the headers of libraries that most of them read.
+function(tyndall_grouped target)
+    if(TYNDALL_GROUPED)
+        set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 6)
         target_precompile_headers(${target} PRIVATE <algorithm> <cmath> <filesystem> <functional> <map>
                                   <memory> <optional> <string> <vector> ${ARGN})
     endif()
