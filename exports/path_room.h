@@ -14,7 +14,8 @@
 
 namespace tyndall::exports {
 
-inline constexpr double degrees = 180.0 / std::numbers::pi;  // in a radian
+// In a radian.
+inline constexpr double degrees = 180.0 / std::numbers::pi;
 
 // What is seen of one side of a wall.
 struct Finish {

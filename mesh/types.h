@@ -9,6 +9,7 @@
 
 namespace tyndall::mesh {
 
+// As a distance, a depth or a bound.
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 
 using Point = glm::dvec3;      // [m]

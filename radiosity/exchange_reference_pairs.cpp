@@ -13,7 +13,7 @@ namespace tyndall::radiosity {
 namespace {
 
 // A first look tells how much each integral may be off.
-constexpr double first_look = 1e-2;
+constexpr double first_tolerance = 1e-2;
 constexpr int most_looks = 4;
 constexpr std::size_t most_evaluations = 20'000'000;
 
@@ -30,7 +30,7 @@ class ReferencePairs {
         double sum = 0.0;
         each_facing(a, b, [&](const FacingParts& facing) {
             Part part{facing, pairs_.blocked(facing), pairs_.extinction(facing, options_.band)};
-            part.integral = integral(part, kernel, {first_look, 0.0, most_evaluations});
+            part.integral = integral(part, kernel, {first_tolerance, 0.0, most_evaluations});
             sum += facing.sign * part.integral.value;
             parts.push_back(std::move(part));
         });

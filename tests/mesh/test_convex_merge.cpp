@@ -32,7 +32,7 @@ Soup grid(const std::vector<double>& s, const std::vector<double>& t, Point orig
     return soup;
 }
 
-double area(const std::vector<Point>& c) {
+double corner_area(const std::vector<Point>& c) {
     Point sum(0);
     for (std::size_t k = 1; k + 1 < c.size(); ++k) sum += glm::cross(c[k] - c[0], c[k + 1] - c[0]);
     return 0.5 * glm::length(sum);
@@ -50,7 +50,7 @@ double total(const std::vector<ConvexPolygon>& polygons) {
     double sum = 0.0;
     for (const auto& p : polygons) {
         check_convex(p);
-        sum += area(p.corners);
+        sum += corner_area(p.corners);
     }
     return sum;
 }

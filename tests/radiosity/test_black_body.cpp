@@ -23,7 +23,6 @@ SpectralModel planck(std::vector<double> edges) {
     return model;
 }
 
-
 }  // namespace
 
 TEST_CASE("Planck's fraction: values by quadrature of 25 digits", "[heat]") {
