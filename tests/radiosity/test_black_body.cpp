@@ -1,5 +1,6 @@
 // Black bodies in bands: Planck's fractions, grey gases, and temperatures from powers.
 #include "radiosity/black_body.h"
+#include "radiosity/scene.h"
 
 #include <array>
 #include <cmath>
