@@ -26,7 +26,7 @@ Ball ball(Point centre, double radius, int levels) {
                    {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
     for (int level = 0; level < levels; ++level) {
         std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
-        const auto middle = [&](std::uint32_t i, std::uint32_t j) {
+        const auto room_middle = [&](std::uint32_t i, std::uint32_t j) {
             const auto [entry, made] =
                 middles.try_emplace(std::minmax(i, j), static_cast<std::uint32_t>(b.points.size()));
             if (made) b.points.push_back(glm::normalize(b.points[i] + b.points[j]));
@@ -34,7 +34,7 @@ Ball ball(Point centre, double radius, int levels) {
         };
         Triangles next;
         for (const auto& [i, j, k] : b.triangles) {
-            const auto ij = middle(i, j), jk = middle(j, k), ki = middle(k, i);
+            const auto ij = room_middle(i, j), jk = room_middle(j, k), ki = room_middle(k, i);
             next.insert(next.end(), {{i, ij, ki}, {ij, j, jk}, {ki, jk, k}, {ij, jk, ki}});
         }
         b.triangles = std::move(next);
@@ -53,7 +53,7 @@ Point point_in_box(test::Random& random) {
     return {test::uniform(random), test::uniform(random), test::uniform(random)};
 }
 
-const Point middle(0.4, 0.5, 0.45);
+const Point room_middle(0.4, 0.5, 0.45);
 constexpr double radius = 0.3;  // [m]
 
 // The nearest hit by a test of every triangle. Source: Möller & Trumbore (1997).
@@ -76,7 +76,7 @@ double nearest(const Ball& b, const Ray& ray) {
 
 TEST_CASE("Rays meet a body of two thousand triangles where a test of each says", "[body]") {
     BaseMesh mesh = unit_box();
-    const Ball b = ball(middle, radius, 4);
+    const Ball b = ball(room_middle, radius, 4);
     REQUIRE(b.triangles.size() == 2048);
     add_body(mesh, b.points, b.triangles);
     REQUIRE(mesh.bodies.size() == 1);
@@ -93,7 +93,7 @@ TEST_CASE("Rays meet a body of two thousand triangles where a test of each says"
         ++hits;
         worst = std::max(worst, std::abs(hit.distance - expected));
         // From within, backs are seen.
-        const bool inside = glm::distance(ray.origin, middle) < 0.99 * radius;
+        const bool inside = glm::distance(ray.origin, room_middle) < 0.99 * radius;
         if (inside) CHECK(hit.side == Side::back);
     }
     CHECK(hits > 2000);
@@ -102,7 +102,7 @@ TEST_CASE("Rays meet a body of two thousand triangles where a test of each says"
 
 TEST_CASE("A ray's length ends before a body that is farther", "[body]") {
     BaseMesh mesh = unit_box();
-    const Ball b = ball(middle, radius, 2);
+    const Ball b = ball(room_middle, radius, 2);
     add_body(mesh, b.points, b.triangles);
     Ray ray{{0.01, 0.52, 0.47}, {1, 0, 0}};
     const BodyHit hit = first_body(mesh, ray);
@@ -116,12 +116,12 @@ TEST_CASE("A ray's length ends before a body that is farther", "[body]") {
 
 TEST_CASE("What lies inside a body, and the nearest place beside it", "[body]") {
     BaseMesh mesh = unit_box();
-    const Ball b = ball(middle, radius, 3);
+    const Ball b = ball(room_middle, radius, 3);
     add_body(mesh, b.points, b.triangles);
     test::Random random(3);
     for (int k = 0; k < 2000; ++k) {
         const Point x = point_in_box(random);
-        const double distance = glm::distance(x, middle);
+        const double distance = glm::distance(x, room_middle);
         if (std::abs(distance - radius) < 0.03 * radius)
             continue;  // facets of up to 13° cut chords
         const Body* around = body_around(mesh, x);
@@ -129,6 +129,6 @@ TEST_CASE("What lies inside a body, and the nearest place beside it", "[body]") 
         if (!around) continue;
         const Point out = nearest_outside(mesh, *around, x);
         CHECK(body_around(mesh, out) == nullptr);
-        CHECK(glm::distance(out, middle) == Approx(radius).epsilon(0.03));
+        CHECK(glm::distance(out, room_middle) == Approx(radius).epsilon(0.03));
     }
 }
