@@ -26,7 +26,7 @@ Ball ball(Point centre, double radius, int levels) {
                    {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
     for (int level = 0; level < levels; ++level) {
         std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middles;
-        const auto room_middle = [&](std::uint32_t i, std::uint32_t j) {
+        const auto middle = [&](std::uint32_t i, std::uint32_t j) {
             const auto [entry, made] =
                 middles.try_emplace(std::minmax(i, j), static_cast<std::uint32_t>(b.points.size()));
             if (made) b.points.push_back(glm::normalize(b.points[i] + b.points[j]));
@@ -34,7 +34,7 @@ Ball ball(Point centre, double radius, int levels) {
         };
         Triangles next;
         for (const auto& [i, j, k] : b.triangles) {
-            const auto ij = room_middle(i, j), jk = room_middle(j, k), ki = room_middle(k, i);
+            const auto ij = middle(i, j), jk = middle(j, k), ki = middle(k, i);
             next.insert(next.end(), {{i, ij, ki}, {ij, j, jk}, {ki, jk, k}, {ij, jk, ki}});
         }
         b.triangles = std::move(next);
