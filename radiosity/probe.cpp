@@ -119,7 +119,7 @@ ZoneValues Probe::in_space(Point x) const {
         arriving.push_back(incident);
     }
     if (e.thermal && medium != none)
-        values.temperature = temperature_of(e.spectral, e.media[medium], emitted, arriving);
+        values.temperature = temperature_there(e.spectral, e.media[medium], emitted, arriving);
     return values;
 }
 
@@ -150,7 +150,7 @@ PatchValues Probe::on_surface(Point x, Direction normal) const {
     const PatchId leaf = solution_.forest.leaf_at(mesh::root_patch(wall, face), x);
     Spectrum emitted;
     for (std::size_t b = 0; b < e.bands; ++b) emitted.push_back(emission_of(solution_, leaf, b));
-    values.temperature = temperature_of(e.spectral, e.sides[side], emitted, arriving);
+    values.temperature = temperature_there(e.spectral, e.sides[side], emitted, arriving);
     return values;
 }
 

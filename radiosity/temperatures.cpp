@@ -4,26 +4,33 @@
 
 #include <algorithm>
 #include <limits>
+#include <numbers>
 
 namespace tyndall::radiosity {
 namespace {
 
-// At a leaf's centroid, one value a band.
+using std::numbers::pi;
+
+// Of a leaf, one value a band.
 template <class Node>
-Spectrum emission_at(const Solution& s, Node node) {
+Spectrum emission_in(const Solution& s, Node node) {
     Spectrum emission(s.enclosure->bands);
     for (std::size_t b = 0; b < emission.size(); ++b) emission[b] = emission_of(s, node, b);
     return emission;
 }
 
 template <class Node>
-Spectrum incident_at(const Solution& s, Node node) {
-    const Point centroid = s.forest.centroid(node);
+Spectrum incident_at(const Solution& s, Node node, Point x) {
     Spectrum incident(s.enclosure->bands);
     for (std::size_t b = 0; b < incident.size(); ++b)
-        incident[b] =
-            std::max(0.0, s.direct.at(node, b).at(centroid) + s.indirect.at(node, b).at(centroid));
+        incident[b] = std::max(0.0, s.direct.at(node, b).at(x) + s.indirect.at(node, b).at(x));
     return incident;
+}
+
+// R of (44).
+double taken_up(double source, const Spectrum& absorbs, std::span<const double> incident) {
+    for (std::size_t b = 0; b < absorbs.size(); ++b) source += absorbs[b] * incident[b];
+    return source;
 }
 
 // The mean being taken, and what it is divided by.
@@ -67,20 +74,46 @@ double temperature_of(const SpectralModel& model, const MediumOptics& medium,
     return temperature_of(model, medium.absorption, total);
 }
 
+double temperature_there(const SpectralModel& model, const SurfaceSide& side,
+                         std::span<const double> emission, std::span<const double> incident) {
+    if (!side.settled_flux) return temperature_of(model, side, emission, incident);
+    return temperature_of(model, side.emissivity,
+                          taken_up(*side.settled_flux / pi, side.emissivity, incident));
+}
+
+double temperature_there(const SpectralModel& model, const MediumOptics& medium,
+                         std::span<const double> emission, std::span<const double> incident) {
+    if (!medium.settled_heat) return temperature_of(model, medium, emission, incident);
+    return temperature_of(model, medium.absorption,
+                          taken_up(*medium.settled_heat / (4.0 * pi), medium.absorption, incident));
+}
+
 double temperature_of(const Solution& s, PatchId patch) {
     const auto of = side_of(*s.enclosure, s.forest, patch);
     if (of == none) return std::numeric_limits<double>::quiet_NaN();
-    const SurfaceSide& side = s.enclosure->sides[of];
-    return temperature_of(s.enclosure->spectral, side, emission_at(s, patch),
-                          incident_at(s, patch));
+    return temperature_of(s.enclosure->spectral, s.enclosure->sides[of], emission_in(s, patch),
+                          incident_at(s, patch, s.forest.centroid(patch)));
 }
 
 double temperature_of(const Solution& s, ZoneId zone) {
     const auto of = medium_of(*s.enclosure, s.forest, zone);
     if (of == none) return std::numeric_limits<double>::quiet_NaN();
-    const MediumOptics& medium = s.enclosure->media[of];
-    return temperature_of(s.enclosure->spectral, medium, emission_at(s, zone),
-                          incident_at(s, zone));
+    return temperature_of(s.enclosure->spectral, s.enclosure->media[of], emission_in(s, zone),
+                          incident_at(s, zone, s.forest.centroid(zone)));
+}
+
+double temperature_at(const Solution& s, PatchId patch, Point x) {
+    const auto of = side_of(*s.enclosure, s.forest, patch);
+    if (of == none) return std::numeric_limits<double>::quiet_NaN();
+    return temperature_there(s.enclosure->spectral, s.enclosure->sides[of], emission_in(s, patch),
+                             incident_at(s, patch, x));
+}
+
+double temperature_at(const Solution& s, ZoneId zone, Point x) {
+    const auto of = medium_of(*s.enclosure, s.forest, zone);
+    if (of == none) return std::numeric_limits<double>::quiet_NaN();
+    return temperature_there(s.enclosure->spectral, s.enclosure->media[of], emission_in(s, zone),
+                             incident_at(s, zone, x));
 }
 
 void report_temperatures(Solution& s) {

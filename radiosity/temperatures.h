@@ -19,13 +19,23 @@ double temperature_of(const SpectralModel& model, const SurfaceSide& side,
 double temperature_of(const SpectralModel& model, const MediumOptics& medium,
                       std::span<const double> emission, std::span<const double> incident);
 
-// The same of a leaf, at its centroid; NaN where there is no medium, or a side that faces none.
+// The same at a point of it. Where it settles by its heat in several bands, the temperature at
+// which it emits what it takes up at the very point, R of (44); `emission`, its element's, is that
+// of R's mean.
+double temperature_there(const SpectralModel& model, const SurfaceSide& side,
+                         std::span<const double> emission, std::span<const double> incident);
+double temperature_there(const SpectralModel& model, const MediumOptics& medium,
+                         std::span<const double> emission, std::span<const double> incident);
+
+// temperature_of a leaf, at its centroid; NaN where there is no medium, or a side that faces none.
 double temperature_of(const Solution& solution, PatchId patch);
 double temperature_of(const Solution& solution, ZoneId zone);
+// temperature_there, with the leaf's linear H at the point.
+double temperature_at(const Solution& solution, PatchId patch, Point x);
+double temperature_at(const Solution& solution, ZoneId zone, Point x);
 
 // Purpose: into the report, of every side and medium that has one: the mean over its leaves, by
-// area
-//   or volume, the lowest and the highest; nothing where temperatures have no meaning. Leaves
+//   area or volume, the lowest and the highest; nothing where temperatures have no meaning. Leaves
 //   without one are left out, and a warning says of what and how many. Cost: a pass over the
 //   leaves.
 void report_temperatures(Solution& solution);

@@ -4,8 +4,10 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "mesh/input_error.h"
+#include "radiosity/temperatures.h"
 
 namespace tyndall::render {
 namespace {
@@ -39,6 +41,17 @@ double direct(const Solution& s, Id id, Point x) {
 template <class Id>
 double indirect(const Solution& s, Id id, Point x) {
     return mean_over_bands(s, [&](std::size_t b) { return s.indirect.at(id, b).at(x); });
+}
+
+template <class Id>
+double incident(const Solution& s, Id id, Point x) {
+    return direct(s, id, x) + indirect(s, id, x);
+}
+
+template <class Id>
+double temperature(const Solution& s, Id id, Point x) {
+    return s.enclosure->thermal ? radiosity::temperature_at(s, id, x)
+                                : std::numeric_limits<double>::quiet_NaN();
 }
 
 double error_of_zone(const Solution& s, ZoneId id, Point) {
@@ -77,6 +90,8 @@ constexpr NamedField fields[] = {
     {"radiance", "W/m2/sr", true, radiance<ZoneId>, radiance<PatchId>},
     {"direct", "W/m2/sr", true, direct<ZoneId>, direct<PatchId>},
     {"indirect", "W/m2/sr", true, indirect<ZoneId>, indirect<PatchId>},
+    {"incident", "W/m2/sr", true, incident<ZoneId>, incident<PatchId>},
+    {"temperature", "K", false, temperature<ZoneId>, temperature<PatchId>},
     {"error", "W/m2/sr", true, error_of_zone, error_of_patch},
     {"level", "bisections", false, level<ZoneId>, level<PatchId>},
     {"extinction", "1/m", false, extinction_of_zone, no_extinction},

@@ -17,9 +17,10 @@ struct NamedField {
     double (*of_patch)(const radiosity::Solution&, mesh::PatchId, mesh::Point);
 };
 
-// radiance: J of zones, I of patches; direct, indirect: incident light; error: estimated, of
-// incident light [all W/m^2/sr]; level: bisections below the base mesh; extinction [1/m] of zones
-// (0 of patches); albedo of zones and reflectance of patches.
+// radiance: J of zones, I of patches; direct, indirect, and incident: H, both; error: estimated, of
+// incident light [all W/m^2/sr]; temperature (43), NaN where there is none [K]; level: bisections
+// below the base mesh; extinction [1/m] of zones (0 of patches); albedo of zones and reflectance of
+// patches.
 std::span<const NamedField> element_fields();
 
 std::vector<std::string_view> field_names();

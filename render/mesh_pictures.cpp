@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <utility>
 
 #include "mesh/entry.h"
 #include "mesh/input_error.h"
@@ -178,12 +179,21 @@ Plane default_plane(const radiosity::Enclosure& enclosure) {
 namespace {
 
 // Colours for a value a pixel, and the edges of what the ids stand for.
-FieldPicture coloured(std::size_t width, std::size_t height, const std::vector<std::uint32_t>& ids,
+// Values that are none, of elements that have no temperature, are left grey.
+FieldPicture coloured(std::size_t width, std::size_t height, std::vector<std::uint32_t> ids,
                       const std::vector<double>& values, const FieldOptions& options,
                       bool logarithmic) {
     std::vector<double> shown;
-    for (std::size_t k = 0; k < ids.size(); ++k)
+    bool any = false;
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+        any = any || ids[k] != none;
+        if (std::isnan(values[k])) ids[k] = none;
         if (ids[k] != none) shown.push_back(values[k]);
+    }
+    if (any && shown.empty())
+        throw mesh::InputError(fmt::format(
+            "nothing that is shown has a {}. Show another field, or solve a scene with heat.",
+            options.field));
     FieldPicture result{{width, height, 3, {}}, scale_for(std::move(shown), logarithmic)};
     if (options.low) result.scale.low = *options.low;
     if (options.high) result.scale.high = *options.high;
@@ -225,7 +235,8 @@ FieldPicture field_slice(const Solution& solution, const Plane& plane,
             values[y * window.width + x] = field.of_zone(solution, zone, p);
         }
     });
-    return coloured(window.width, window.height, ids, values, options, field.logarithmic);
+    return coloured(window.width, window.height, std::move(ids), values, options,
+                    field.logarithmic);
 }
 
 FieldPicture field_picture(const Solution& solution, const Camera& camera,
@@ -244,7 +255,8 @@ FieldPicture field_picture(const Solution& solution, const Camera& camera,
             values[y * camera.width + x] = field.of_patch(solution, seen.leaf, seen.x);
         }
     });
-    return coloured(camera.width, camera.height, ids, values, options, field.logarithmic);
+    return coloured(camera.width, camera.height, std::move(ids), values, options,
+                    field.logarithmic);
 }
 
 }  // namespace tyndall::render

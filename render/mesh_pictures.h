@@ -41,8 +41,8 @@ struct FieldPicture {
 };
 
 // Purpose: the zones that a plane cuts, coloured by a field (dark blue to yellow, light grey where
-//   there is no medium), with their edges. 960 pixels along the longer side of the media's extent.
-//   Up in the picture is z.
+//   there is no medium, or no value), with their edges. 960 pixels along the longer side of the
+//   media's extent. Up in the picture is z.
 // Errors: mesh::InputError for a field that there is not, or ends of the colours that are none.
 // Cost: one point location a pixel.
 FieldPicture field_slice(const radiosity::Solution& solution, const Plane& plane,

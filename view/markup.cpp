@@ -108,4 +108,9 @@ std::string table_markup(const Table& table) {
     return text + "</tbody></table></div>\n";
 }
 
+std::string folded_markup(const std::string& summary, const std::string& content) {
+    return "<div><details class=\"fold\"><summary>" + summary +
+           "</summary></details><div class=\"folded\">" + content + "</div></div>";
+}
+
 }  // namespace tyndall::view

@@ -34,6 +34,11 @@ struct Table {
 // Purpose: a table with its caption, whose heads say what they are heads of. "" without rows.
 std::string table_markup(const Table& table);
 
+// Purpose: markup that is folded under a heading on the screen, and printed whole. It stands beside
+//   <details>, not within, as browsers print nothing of what is closed there; a style sheet hides
+//   it. Neither is text escaped here.
+std::string folded_markup(const std::string& summary, const std::string& content);
+
 // The template with every {{name}} replaced by what `text_of(name)` says.
 template <class TextOf>
 std::string filled(std::string_view page, TextOf&& text_of) {

@@ -48,10 +48,9 @@ std::string again_section(const ReportFacts& facts, const ReportPageOptions& opt
         "<p>The same scene, seed and version give the same bits at any number of threads, unless "
         "a limit of time or a stop ended the run.</p>\n";
     if (!options.scene_text.empty() && options.scene_text.size() < longest_scene)
-        text +=
-            "<details><summary>The scene as it was solved, with all that --set had "
-            "changed</summary><pre><code>" +
-            multiline(options.scene_text) + "</code></pre></details>\n";
+        text += folded_markup("The scene as it was solved, with all that --set had changed",
+                              "<pre><code>" + multiline(options.scene_text) + "</code></pre>") +
+                "\n";
     return section(level, "again", "To make it again", text);
 }
 

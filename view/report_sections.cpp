@@ -121,9 +121,8 @@ std::string figure_markup(const std::string& caption, const std::string& chart,
     if (chart.empty() && table.empty()) return "";
     std::string text = "<figure><figcaption>" + escaped(caption) + "</figcaption>\n" + chart;
     if (!table.empty())
-        text += folded && !chart.empty()
-                    ? "<details><summary>Numbers of this chart</summary>" + table + "</details>"
-                    : "<div>" + table + "</div>";
+        text += folded && !chart.empty() ? folded_markup("Numbers of this chart", table)
+                                         : "<div>" + table + "</div>";
     return text + "</figure>\n";
 }
 

@@ -176,6 +176,32 @@ TEST_CASE("A selective wall of given flux in several bands", "[heat]") {
     }
 }
 
+TEST_CASE("Within an element that settles, the temperature is that of the point", "[heat]") {
+    // What a point takes up it emits again, as in (44): black at T, and the element at another.
+    SurfaceSide side;
+    side.emissivity = {0.8, 0.25};
+    side.reflectance = {0.2, 0.75};
+    side.settled_flux = 0.0;
+    const SpectralModel model{{0.0, 3e-6, infinity}};
+    const auto element = black_radiance(model, 2, 700.0), point = black_radiance(model, 2, 900.0);
+    const Spectrum emission{0.8 * element[0], 0.25 * element[1]};
+    CHECK(temperature_there(model, side, emission, element) == Approx(700.0).epsilon(1e-9));
+    CHECK(temperature_there(model, side, emission, point) == Approx(900.0).epsilon(1e-9));
+    // A flux of its own comes on top.
+    side.settled_flux = pi * (0.8 * (point[0] - element[0]) + 0.25 * (point[1] - element[1]));
+    CHECK(temperature_there(model, side, emission, element) == Approx(900.0).epsilon(1e-9));
+    // Where a temperature is given, what falls on the point does not count.
+    side.settled_flux.reset();
+    CHECK(temperature_there(model, side, emission, point) == Approx(700.0).epsilon(1e-9));
+
+    MediumOptics medium;
+    medium.extinction = {2.0, 0.5};
+    medium.albedo = {0.0, 0.2};
+    medium.absorption = {2.0, 0.4};
+    medium.settled_heat = 0.0;
+    CHECK(temperature_there(model, medium, {{0.0, 0.0}}, point) == Approx(900.0).epsilon(1e-9));
+}
+
 TEST_CASE("Bands that are all alike settle as one grey band does", "[heat]") {
     // Hot and cold black faces, grey adiabatic walls, a grey medium in equilibrium: in three bands
     // of the same properties the sums over bands obey the grey equation.

@@ -57,7 +57,7 @@ TEST_CASE("A crop is that part of the picture") {
 TEST_CASE("Elements in colours say what the colours stand for") {
     const auto& place = solved_place();
     for (const std::string field :
-         {"radiance", "direct", "indirect", "error", "level", "extinction", "albedo"})
+         {"radiance", "direct", "indirect", "incident", "error", "level", "extinction", "albedo"})
         for (const std::string where : {"", " --slice middle", " --slice 1,1,1,0,0,1"}) {
             CAPTURE(field, where);
             const auto json = nlohmann::json::parse(
@@ -70,6 +70,8 @@ TEST_CASE("Elements in colours say what the colours stand for") {
         place.good("render out -o field.png --json --field radiance --range 0.5,2"));
     CHECK(ranged.at("low") == 0.5);
     CHECK(ranged.at("high") == 2.0);
+    CHECK_THAT(crop_complaint("render out -o f.png --field temperature"),
+               Contains("has a temperature"));
     CHECK_THAT(crop_complaint("render out -o f.png --field heat"), Contains("radiance, direct"));
     CHECK_THAT(crop_complaint("render out -o f.png --field radiance --range 2,1"),
                Contains("lower end"));

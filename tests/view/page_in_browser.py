@@ -206,6 +206,22 @@ def passes(browser):
     browser.settle()
 
 
+def folds(browser):
+    """What is folded on the screen opens by its heading, and is printed."""
+    shown = "return [...document.querySelectorAll('.folded')].map((f) => f.offsetHeight > 0)"
+    count = len(browser.run(shown))
+    check(count >= 2 and not any(browser.run(shown)), f"{count} folded parts")
+    browser.run("document.querySelector('.fold summary').click()")
+    check(browser.run(shown).count(True) == 1, "one opens at a click")
+    browser.run("document.querySelector('.fold summary').click()")
+    check(not any(browser.run(shown)), "and closes")
+    browser.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": "print"})
+    check(all(browser.run(shown)), "all are printed")
+    check(browser.run("return [...document.querySelectorAll('.fold')].every((f) => f.offsetHeight === 0)"),
+          "without the headings that fold them")
+    browser.driver.execute_cdp_cmd("Emulation.setEmulatedMedia", {"media": ""})
+
+
 def report(browser):
     """report.html, which has no script of its own."""
     link = browser.driver.find_element("css selector", "header a[href='report.html']")
@@ -228,6 +244,7 @@ def report(browser):
           "its figures are those of report.json")
     wide = browser.run("return document.documentElement.scrollWidth - document.documentElement.clientWidth")
     check(wide <= 0, f"nothing is wider than the window: {wide}")
+    folds(browser)
     back = browser.driver.find_element("css selector", "header a")
     browser.run("arguments[0].click()", back)
     browser.wait("return document.getElementById('canvas') !== null")
