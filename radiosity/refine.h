@@ -136,6 +136,7 @@ class IndirectRefiner {
     struct Ends {
         std::vector<bool> zones, patches;
     };
+    // Those of this refinement.
     Ends settled() const { return {zones_.flags, patches_.flags}; }
     // A descent in the same forest before bodies moved ended there: this one goes on only where the
     // error has grown, not where it is about what an element may have.
