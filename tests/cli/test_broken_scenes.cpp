@@ -10,6 +10,7 @@
 #include "cli/scene_spectrum.h"
 #include "mesh/input_error.h"
 #include "support/catch.h"
+#include "support/own_folder.h"
 
 using namespace tyndall;
 namespace fs = std::filesystem;
@@ -97,7 +98,7 @@ TEST_CASE("A scene that is missing, a directory, or cut short anywhere is refuse
     std::ifstream stream(fs::path(TYNDALL_SOURCE_DIR) / "examples/scenes/window_shafts.toml");
     const std::string text{std::istreambuf_iterator<char>(stream), {}};
     REQUIRE(text.size() > 1000);
-    const fs::path path = fs::path(TYNDALL_BINARY_DIR) / "cut_short.toml";
+    const fs::path path = test::own_folder() / "cut_short.toml";
     for (std::size_t size = 0; size < text.size(); size += 13) {
         std::ofstream(path, std::ios::binary) << text.substr(0, size);
         CHECK_NOTHROW(scene_message(path));

@@ -10,17 +10,17 @@
 #include "radiosity/report_json.h"
 #include "radiosity/solution_file.h"
 #include "support/catch.h"
+#include "support/own_folder.h"
 
 using namespace tyndall;
 namespace fs = std::filesystem;
 
 namespace {
 
-const fs::path folder = fs::path(TYNDALL_BINARY_DIR) / "heat";
+const fs::path& folder = test::own_folder();
 const fs::path gases = fs::path(TYNDALL_SOURCE_DIR) / "examples/scenes/gases";
 
 cli::SceneFile read_heated(const std::string& text) {
-    fs::create_directories(folder);
     std::ofstream(folder / "scene.toml") << text;
     return cli::read_scene_file(folder / "scene.toml");
 }

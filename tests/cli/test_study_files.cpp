@@ -9,6 +9,7 @@
 #include "cli/study_matrix.h"
 #include "mesh/input_error.h"
 #include "support/catch.h"
+#include "support/own_folder.h"
 
 using namespace tyndall;
 namespace fs = std::filesystem;
@@ -29,7 +30,7 @@ std::string study_message(const fs::path& path) {
 }
 
 fs::path written(const std::string& text) {
-    const fs::path path = fs::path(TYNDALL_BINARY_DIR) / "study_of_the_test.toml";
+    const fs::path path = test::own_folder() / "study_of_the_test.toml";
     std::ofstream(path) << "scene = \"" << (source / "examples/scenes/window_shafts.toml").string()
                         << "\"\n"
                         << text;
@@ -71,7 +72,7 @@ TEST_CASE("A study file that is missing or cut short anywhere is refused") {
     std::ifstream stream(source / "examples/studies/shafts_soft.toml");
     const std::string text{std::istreambuf_iterator<char>(stream), {}};
     REQUIRE(text.size() > 500);
-    const fs::path path = fs::path(TYNDALL_BINARY_DIR) / "study_cut_short.toml";
+    const fs::path path = test::own_folder() / "study_cut_short.toml";
     for (std::size_t size = 0; size < text.size(); size += 7) {
         std::ofstream(path, std::ios::binary) << text.substr(0, size);
         CHECK_NOTHROW(study_message(path));

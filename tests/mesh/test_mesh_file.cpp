@@ -7,6 +7,7 @@
 
 #include "mesh/input_error.h"
 #include "support/catch.h"
+#include "support/own_folder.h"
 
 using namespace tyndall::mesh;
 namespace fs = std::filesystem;
@@ -16,7 +17,7 @@ namespace {
 struct TemporaryFile {
     fs::path path;
     TemporaryFile(const std::string& name, const std::string& content)
-        : path(fs::path(TYNDALL_BINARY_DIR) / name) {
+        : path(tyndall::test::own_folder() / name) {
         std::ofstream(path, std::ios::binary) << content;
     }
     ~TemporaryFile() { fs::remove(path); }
