@@ -74,6 +74,16 @@ void gather_over(const Elements& e, std::size_t i, const LitPatches& lit, Points
     for (double& value : mean) value /= measure;
 }
 
+// One value an element and band: find(element, its values).
+template <class Find>
+std::vector<double> of_elements(const Elements& e, Find&& find) {
+    std::vector<double> values(e.size() * e.bands);
+    tbb::parallel_for(std::size_t(0), e.size(), [&](std::size_t i) {
+        find(i, std::span<double>(values.data() + i * e.bands, e.bands));
+    });
+    return values;
+}
+
 template <class Node>
 bool near_body(const Forest& forest, Node node, std::span<const mesh::Body> bodies) {
     return std::ranges::any_of(bodies, [&](const mesh::Body& body) {
@@ -86,46 +96,35 @@ bool near_body(const Forest& forest, Node node, std::span<const mesh::Body> bodi
 
 std::vector<double> incident_lit(const Enclosure& enclosure, const Forest& forest,
                                  const Elements& e, const LitPatches& lit) {
-    std::vector<double> incident(e.size() * e.bands);
-    tbb::parallel_for(std::size_t(0), e.size(), [&](std::size_t i) {
-        gather_over(e, i, lit, [&](auto node) { return quadrature(enclosure, forest, node); },
-                    {incident.data() + i * e.bands, e.bands});
-    });
-    return incident;
+    const auto rule = [&](auto node) { return quadrature(enclosure, forest, node); };
+    return of_elements(
+        e, [&](std::size_t i, std::span<double> mean) { gather_over(e, i, lit, rule, mean); });
 }
 
 std::vector<double> lit_in_middles(const Enclosure& enclosure, const Forest& forest,
                                    const Elements& e, const LitPatches& lit) {
-    std::vector<double> incident(e.size() * e.bands);
-    tbb::parallel_for(std::size_t(0), e.size(), [&](std::size_t i) {
-        gather_over(e, i, lit, [&](auto node) { return middle(enclosure, forest, node); },
-                    {incident.data() + i * e.bands, e.bands});
-    });
-    return incident;
+    const auto rule = [&](auto node) { return middle(enclosure, forest, node); };
+    return of_elements(
+        e, [&](std::size_t i, std::span<double> mean) { gather_over(e, i, lit, rule, mean); });
 }
 
 std::vector<double> incident_lit(const Enclosure& enclosure, const Forest& forest,
                                  const Elements& e, const LitPatches& lit,
                                  const LitBefore& before) {
-    std::vector<double> incident(e.size() * e.bands);
-    tbb::parallel_for(std::size_t(0), e.size(), [&](std::size_t i) {
-        const std::span<double> mean(incident.data() + i * e.bands, e.bands);
-        const auto members = e.members_of(i);
-        const bool near = std::ranges::any_of(members, [&](std::uint32_t member) {
+    const auto rule = [&](auto node) { return quadrature(enclosure, forest, node); };
+    const auto rule_in_middle = [&](auto node) { return middle(enclosure, forest, node); };
+    return of_elements(e, [&](std::size_t i, std::span<double> mean) {
+        const bool near = std::ranges::any_of(e.members_of(i), [&](std::uint32_t member) {
             return e.is_patch(i) ? near_body(forest, PatchId(member), before.bodies)
                                  : near_body(forest, ZoneId(member), before.bodies);
         });
-        if (near)
-            return gather_over(
-                e, i, lit, [&](auto node) { return quadrature(enclosure, forest, node); }, mean);
-        gather_over(
-            e, i, lit, [&](auto node) { return middle(enclosure, forest, node); }, mean);
+        if (near) return gather_over(e, i, lit, rule, mean);
+        gather_over(e, i, lit, rule_in_middle, mean);
         for (std::size_t b = 0; b < e.bands; ++b) {
             const std::size_t k = i * e.bands + b;
             mean[b] = std::max(0.0, before.means[k] + mean[b] - before.in_middles[k]);
         }
     });
-    return incident;
 }
 
 }  // namespace tyndall::radiosity

@@ -34,6 +34,8 @@ void set_linear(const KeptLight& kept, const ExchangeAreas& areas, const std::ve
 std::size_t KeptLight::memory() const {
     std::size_t bytes =
         direct.memory() + gathers.memory() + 2 * forest.memory() + coarse_forest.memory();
+    for (const auto* values : {&gathered_from, &lit_in_middles, &coarse_errors})
+        bytes += values->size() * sizeof(double);
     for (const ExchangeAreas& one : areas) bytes += one.memory();
     return bytes;
 }

@@ -7,13 +7,12 @@ missing (Debian's python3-vtk9), unless TYNDALL_REQUIRE_VTK is set.
 
 import json
 import pathlib
-import shutil
 import subprocess
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from other_readers import check_series, columns, names_of, read  # noqa: E402
-from verdicts import check, skip  # noqa: E402
+from other_readers import begin, check_series, columns, names_of, read  # noqa: E402
+from verdicts import check  # noqa: E402
 
 TIMES = [0.0, 0.5, 1.0, 1.5, 2.0]      # five frames, two a second
 EMISSION = [10.0, 8.0, 6.0, 4.0, 2.0]  # of the lamp, as the scene's track says
@@ -51,12 +50,7 @@ def check_light(name, frames):
 
 
 def main(tyndall, scene, folder):
-    try:
-        import vtk
-    except ImportError:
-        skip("no python3-vtk9", "TYNDALL_REQUIRE_VTK")
-    shutil.rmtree(folder, ignore_errors=True)
-    folder.mkdir(parents=True)
+    vtk = begin(folder)
     subprocess.run([tyndall, "animate", str(scene), "-o", "film", "--quiet"], cwd=folder,
                    check=True)
     report = json.loads((folder / "film/report.json").read_text())

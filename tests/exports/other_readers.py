@@ -231,13 +231,19 @@ def with_meshio(folder, stated, grid):
           and set(cells.cell_data) == set(columns(grid.GetCellData())), "meshio: room.vtu")
 
 
-def main(tyndall, scene, folder):
+def begin(folder):
+    """An empty folder, and VTK; without it the test is skipped."""
     try:
         import vtk
     except ImportError:
         skip("no python3-vtk9", "TYNDALL_REQUIRE_VTK")
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
+    return vtk
+
+
+def main(tyndall, scene, folder):
+    vtk = begin(folder)
 
     def run(*arguments):
         return subprocess.run([tyndall, *arguments], cwd=folder, check=True, capture_output=True,

@@ -87,6 +87,25 @@ TEST_CASE("Every solver finds the dense system's solution", "[solvers]") {
     }
 }
 
+TEST_CASE("GMRES begins with a guess, and ends where it would without", "[solvers]") {
+    const FoggyBox box(0.9, 0.7);
+    constexpr double tolerance = 1e-9;
+    const SolverResult plain = solve_gmres(box.problem(), {.tolerance = tolerance});
+    REQUIRE(plain.converged);
+    REQUIRE(plain.iterations > 5);
+    const SolverResult there =
+        solve_gmres(box.problem(), {.tolerance = tolerance, .guess = plain.radiance});
+    CHECK(there.converged);
+    CHECK(there.iterations == 0);
+    CHECK(there.radiance == plain.radiance);
+    std::vector<double> near = plain.radiance;
+    for (std::size_t i = 0; i < near.size(); ++i) near[i] *= i % 2 ? 1.01 : 0.99;
+    const SolverResult result = solve_gmres(box.problem(), {.tolerance = tolerance, .guess = near});
+    CHECK(result.converged);
+    CHECK(result.iterations < plain.iterations);
+    CHECK(largest_difference(result.radiance, plain.radiance) < 100.0 * tolerance);
+}
+
 TEST_CASE("Shots on the fly solve the system of the reversed rows", "[solvers]") {
     const double albedo = GENERATE(0.5, 1.0);
     const FoggyBox box(albedo, 0.7);
