@@ -21,9 +21,9 @@ namespace tyndall::radiosity {
 namespace {
 
 // How the squared error goal is shared out. Errors of direct light have either sign from leaf to
-// leaf, those of indirect light are smooth and stay: they get less.
-constexpr double direct_share = 0.85;
-constexpr double indirect_share = 0.15;
+// leaf; those of zones' indirect light are smooth and add up along a ray, and need leaves only
+// where direct light has made none: they get little of what is left. Patches get the rest.
+constexpr double direct_share = 0.78, zone_share = 0.1;
 
 // A gather's zone may stand for its leaves when it is no longer than this many spacings of its
 // rays: measured, 1 and 4 give the same picture, 4 in half the time.
@@ -111,7 +111,7 @@ class Loop {
                                  options_.seed);
         if (kept_.moved) indirect.begin_with(kept_.moved->settled);
         gather(coarse, lit, importance,
-               adaptive() && asks_for(options_, "indirect") ? indirect_share * goal : 1e300,
+               adaptive() && asks_for(options_, "indirect") ? (1.0 - direct_share) * goal : 1e300,
                indirect);
         Solution solution =
             collect(coarse, [&](auto leaf, std::size_t b) { return indirect.field(leaf, b); });
@@ -153,8 +153,7 @@ class Loop {
         if (!kept_.moved) show("coarse solution", coarse);
     }
 
-    // Indirect light of the leaves: zones first, for half of the goal, then patches, which get what
-    // zones leave.
+    // Indirect light of the leaves: zones first, then patches.
     void gather(const CoarseSolution& coarse, const LitPatches& lit, const Importance& importance,
                 double goal, IndirectRefiner& indirect) {
         IndirectSources sources{leaf_light_.sources(coarse, &lit), &lit, gather_detail(),
@@ -170,13 +169,15 @@ class Loop {
         const Fields in_zones = kept_.keep ? sources.fields : Fields{};
         RefineLimits all = limits(1.0);
         all.grow = !kept_.moved;
-        const auto zones = indirect.refine_zones(sources, importance, 0.5 * goal, all, progress_);
+        const auto zones =
+            indirect.refine_zones(sources, importance, zone_share * goal, all, progress_);
         note(zones);
         direct_.update();
         direct_.sample_means();
         leaf_light_.update_zones(coarse, indirect, sources.fields);
-        note(indirect.refine_patches(
-            sources, importance, goal - std::min(zones.squared_error, 0.5 * goal), all, progress_));
+        note(indirect.refine_patches(sources, importance,
+                                     goal - std::min(zones.squared_error, zone_share * goal), all,
+                                     progress_));
         direct_.update();
         direct_.sample_means();
         mesh_.samples().take_from(nullptr);

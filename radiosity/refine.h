@@ -88,6 +88,8 @@ class DirectRefiner {
                  const std::vector<double>& centroid);
     double collect(const Importance& importance, const RefineLimits& limits, const Asked& asked,
                    std::vector<Candidate>& candidates) const;
+    bool keep_worst(std::vector<Candidate>& candidates, double& evenness, double sum,
+                    double goal) const;
     void bisect(const Candidate& candidate, std::size_t max_leaves);
     // What the larger of its own error and its jump is worth on a leaf.
     template <class Node>

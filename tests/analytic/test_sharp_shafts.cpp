@@ -80,11 +80,11 @@ TEST_CASE("Sun without a diameter: aligned meshes need a thirtieth of the elemen
 
 TEST_CASE("A lamp of 2 cm: both sides of its penumbrae are edges of elements", "[picture][long]") {
     const ShaftCase c = small("/tests/scenes/tiny_lamp.toml");
-    const Outcome aligned = outcome(c, radiosity::Refinement::aligned, 0.03, 150000);
+    const Outcome aligned = outcome(c, radiosity::Refinement::aligned, 0.01, 150000);
     CAPTURE(aligned.elements, aligned.error.rmse);
     CHECK(aligned.error.rmse < 0.003);
     CHECK(std::abs(aligned.error.bias) < 0.001);
-    CHECK(aligned.elements < 25000);
+    CHECK(aligned.elements < 18000);
     // As many elements elsewhere are five times as wrong at least.
     const Outcome plain = outcome(c, radiosity::Refinement::view, 0.001, aligned.elements);
     CAPTURE(plain.elements, plain.error.rmse);
