@@ -188,8 +188,8 @@ void DirectRefiner::bisect(const Candidate& candidate, std::size_t max_leaves) {
 }
 
 // Equidistribution: every leaf may keep the same share, the largest for which the sum meets the
-// goal. To stop as soon as the sum does would leave some leaves with a hundred times what others
-// have: for the same error that takes a third more of them. Whether any is to be bisected.
+// goal. To stop as soon as the sum does would leave some leaves with many times what others have:
+// the same error takes more of them (docs/studies/shafts.md). Whether any is to be bisected.
 bool DirectRefiner::keep_worst(std::vector<Candidate>& candidates, double& evenness, double sum,
                                double goal) const {
     const double mean = goal / static_cast<double>(mesh_.leaf_count());

@@ -35,16 +35,21 @@ void check(const render::PictureError& error, double block4, double block16) {
 
 TEST_CASE("Window shafts: the picture and its direct and single-scattered part", "[picture]") {
     auto file = cli::read_scene_file(TYNDALL_SOURCE_DIR "/examples/scenes/window_shafts.toml");
-    file.solve.error = 0.0075;
     const auto& camera = file.cameras.front();
-    const auto solution = radiosity::solve_adaptively(
-        std::make_shared<const radiosity::Enclosure>(radiosity::make_enclosure(file.scene)),
-        file.solve, camera.view());
-    const auto image = render::line_of_sight(solution, camera, file.render);
-    check(against(image, "", "window_shafts.pfm"), 0.01, 0.005);
-    check(against(image, "direct_single", "window_shafts_direct_single.pfm"), 0.015, 0.005);
-    // Rows close by construction; the balance holds at the rate of the rays, 0.03 % here.
-    CHECK(solution.report.closure_error <= 1e-6);
-    CHECK(std::abs(solution.report.energy_balance) <= 0.005);
-    CHECK(std::abs(solution.report.direct_power_check) <= 0.005);
+    const auto enclosure =
+        std::make_shared<const radiosity::Enclosure>(radiosity::make_enclosure(file.scene));
+    // A finer goal than the scene's own, too: the shafts alone have a third of the picture's light.
+    for (const double goal : {file.solve.error, 0.0075}) {
+        CAPTURE(goal);
+        file.solve.error = goal;
+        const auto solution = radiosity::solve_adaptively(enclosure, file.solve, camera.view());
+        const auto image = render::line_of_sight(solution, camera, file.render);
+        check(against(image, "", "window_shafts.pfm"), 0.01, 0.005);
+        check(against(image, "direct_single", "window_shafts_direct_single.pfm"), 0.015,
+              goal < 0.01 ? 0.005 : 0.007);
+        // Rows close by construction; the balance holds at the rate of the rays, 0.03 % here.
+        CHECK(solution.report.closure_error <= 1e-6);
+        CHECK(std::abs(solution.report.energy_balance) <= 0.005);
+        CHECK(std::abs(solution.report.direct_power_check) <= 0.005);
+    }
 }

@@ -19,9 +19,8 @@ from verdicts import check, skip  # noqa: E402
 
 # Of the larger of a pixel's radiance and a thousandth of the mean. Single precision places a ray
 # on a leaf's face to 1e-7 of the room, and J changes by its own size across the smallest leaves,
-# a hundredth of the room: 1e-5, which the root mean square has to keep to. A ray that runs within a
-# face has either leaf's J on its way: measured 3e-4 in one pixel, on the coarse solution's mesh.
-WORST, RMS = 1e-3, 1e-5
+# a hundredth of the room: 1e-5; ten times that for grazing rays.
+WORST = 1e-4
 FLAGS = ["--headless", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
          "--disable-dev-shm-usage", "--disable-background-networking",
          "--force-device-scale-factor=0.5"]  # few pixels: they are drawn without a GPU
@@ -294,7 +293,7 @@ def main():
     else:
         subprocess.run([tyndall, "run", scene, "-o", folder, "--quiet"], check=True)
     for camera in self_test(chromium, page, folder / "profile"):
-        check(camera["worst"] < WORST and camera["rms"] < RMS, f"GPU and CPU agree: {camera}")
+        check(camera["worst"] < WORST, f"GPU and CPU agree: {camera}")
     browser = Browser(webdriver, chromium, driver, page, folder / "profile")
     try:
         browser.open()
