@@ -29,6 +29,10 @@ constexpr double direct_share = 0.78, zone_share = 0.3;
 // rays: measured, 1 and 4 give the same picture, 4 in half the time.
 constexpr double detail_factor = 4.0;
 
+// Of the goal: what the linear system may leave where bodies have moved. The solution before, which
+// is begun with, is off by more than that already.
+constexpr double moved_tolerance = 1e-3;
+
 // A mesh that is going to be promoted needs to be this much coarser than the next.
 constexpr double coarser_goal = 4.0;
 
@@ -57,7 +61,11 @@ class Loop {
           leaf_light_(*enclosure_, mesh_, direct_, options.radiance) {
         if (options_.refinement < Refinement::view) view_.reset();
         if (kept_.keep) light_.keep_in(&kept_.keep->direct);
-        if (kept_.moved) light_.take_from(kept_.moved->direct, kept_.moved->enclosure->mesh.bodies);
+        if (kept_.moved) {
+            light_.take_from(kept_.moved->direct, kept_.moved->enclosure->mesh.bodies);
+            options_.solver_tolerance =
+                std::max(options_.solver_tolerance, moved_tolerance * options_.error);
+        }
         begin_pass();
     }
 
@@ -85,6 +93,7 @@ class Loop {
             rows.emplace(KeptRows{
                 {*kept_.moved->enclosure, kept_.moved->coarse_forest, kept_.moved->elements},
                 kept_.moved->areas,
+                kept_.moved->directions,
                 std::span(kept_.moved->gathered_from).first(elements.size() * elements.bands)});
         if (kept_.keep) kept_.keep->coarse_forest = mesh_.forest();
         CoarseSolution coarse(*enclosure_, mesh_.forest(), std::move(elements), options_, progress_,
@@ -160,10 +169,10 @@ class Loop {
                                 leaf_light_.in_mirrors(coarse, true)};
         std::optional<GatherChange> change;
         if (kept_.moved)
-            change.emplace(
-                *kept_.moved,
-                GatherChange::Now{*enclosure_, coarse.all_areas(), change_sources(coarse)},
-                options_.error);
+            change.emplace(*kept_.moved,
+                           GatherChange::Now{
+                               *enclosure_, gathered_from(coarse, incident_direct_, incident_lit_)},
+                           options_.error);
         mesh_.samples().take_from(change ? &*change : nullptr);
         mesh_.samples().keep_in(kept_.keep ? &kept_.keep->gathers : nullptr);
         const Fields in_zones = kept_.keep ? sources.fields : Fields{};
@@ -184,13 +193,6 @@ class Loop {
         if (kept_.keep) keep(coarse, in_zones, sources, lit, indirect);
     }
 
-    // r and H of the elements that changes are told by (KeptLight::gathered_from).
-    std::vector<double> change_sources(const CoarseSolution& coarse) const {
-        std::vector<double> result = gathered_from(coarse, incident_direct_);
-        result.insert(result.end(), incident_lit_.begin(), incident_lit_.end());
-        return result;
-    }
-
     void keep(const CoarseSolution& coarse, const Fields& in_zones,
               const IndirectSources& on_patches, const LitPatches& lit,
               const IndirectRefiner& indirect) {
@@ -198,7 +200,8 @@ class Loop {
         light_.keep_in(nullptr);
         kept.elements = coarse.elements();
         kept.areas = coarse.all_areas();
-        kept.gathered_from = change_sources(coarse);
+        kept.directions = coarse.ray_directions();
+        kept.gathered_from = gathered_from(coarse, incident_direct_, incident_lit_);
         kept.lit_in_middles = lit_in_middles(*enclosure_, mesh_.forest(), coarse.elements(), lit);
         kept.scale = scale_;
         kept.settled = indirect.settled();

@@ -91,7 +91,8 @@ void CoarseSolution::make_areas(std::span<const std::size_t> bands, const KeptRo
         for (const std::size_t band : bands) {
             chosen.band = band;
             areas_.push_back(
-                moved_rows(d, {kept->discretization, kept->areas[areas_.size()]}, chosen, walked));
+                moved_rows(d, {kept->discretization, kept->areas[areas_.size()], kept->directions},
+                           chosen, walked));
         }
         rays_ += walked;
     } else if (method.of_bands && bands.size() > 1) {
@@ -109,6 +110,10 @@ void CoarseSolution::make_areas(std::span<const std::size_t> bands, const KeptRo
         for (std::size_t i = 0; i < elements_.size(); ++i)
             outside.push_back(radiosity::to_outside(areas, elements_, i));
     }
+}
+
+std::vector<glm::vec3> CoarseSolution::ray_directions() const {
+    return radiosity::ray_directions({enclosure_, forest_, elements_}, exchange_options(0));
 }
 
 // Without detail and moments, whose rows are not of elements alone.
@@ -314,8 +319,8 @@ void CoarseSolution::solve(const std::vector<double>& incident_direct,
 void CoarseSolution::solve_bands(const std::vector<double>& incident_direct,
                                  const std::vector<double>& incident_lit) {
     Solved solved;
-    solved.indirect.assign(elements_.size() * elements_.bands, 0.0);
-    solved.reflected.assign(elements_.size() * elements_.bands, 0.0);
+    for (auto* values : {&solved.indirect, &solved.reflected, &solved.by_rows})
+        values->assign(elements_.size() * elements_.bands, 0.0);
     solved.report.method = solver_named(options_.solver).name;
     solved.report.converged = true;
     bool stopped = false;
@@ -351,13 +356,13 @@ bool CoarseSolution::add_band(std::size_t b, const std::vector<double>& incident
                                             .guess = guess});
     add_to_report(result, solved.report);
     for (std::size_t i = 0; i < n; ++i) {
-        const double capacity = elements_.capacity[i * bands + b];
-        solved.indirect[i * bands + b] =
-            capacity > 0.0 ? result.received[i] / capacity + from_outside[i] + arrived[i] : 0.0;
-        solved.reflected[i * bands + b] = result.radiance[i];
+        const std::size_t k = i * bands + b;
+        const double c = elements_.capacity[k];
+        if (c > 0.0) solved.by_rows[k] = result.received[i] / c + from_outside[i];
+        if (c > 0.0) solved.indirect[k] = solved.by_rows[k] + arrived[i];
+        solved.reflected[k] = result.radiance[i];
         if (apart && elements_.is_patch(i))
-            solved.reflected[i * bands + b] +=
-                elements_.scatter[i * bands + b] * incident_direct[i * bands + b];
+            solved.reflected[k] += elements_.scatter[k] * incident_direct[k];
     }
     return !result.stopped;
 }

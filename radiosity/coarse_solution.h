@@ -16,6 +16,7 @@ struct NamedSolver;
 struct KeptRows {
     Discretization discretization;
     const std::vector<ExchangeAreas>& areas;
+    std::span<const glm::vec3> directions;  // of their rays (ray_directions)
     // What their solution sent out, of patches less what they reflect of direct light, to begin
     // with ([element * bands + band]) [W/m^2/sr].
     std::span<const double> sent;
@@ -82,6 +83,12 @@ class CoarseSolution {
     double reflected(std::size_t element, std::size_t band) const {
         return solved_.reflected[element * elements_.bands + band];
     }
+    // The part of `indirect` that rows bring, outside's included [W/m^2/sr].
+    double by_rows(std::size_t element, std::size_t band) const {
+        return solved_.by_rows[element * elements_.bands + band];
+    }
+    // Of the rays that rows were made of (exchange_moved.h).
+    std::vector<glm::vec3> ray_directions() const;
     // Σ c r² over Σ c, of all bands [(W/m^2/sr)^2].
     double mean_square() const;
     // e^A: emission counted in closed form, of sides that shine; 0 else.
@@ -91,7 +98,7 @@ class CoarseSolution {
 
   private:
     struct Solved {
-        std::vector<double> indirect, reflected;  // [element * bands + band] [W/m^2/sr]
+        std::vector<double> indirect, reflected, by_rows;  // [element * bands + band] [W/m^2/sr]
         SolverReport report;
     };
 

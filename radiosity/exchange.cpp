@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "radiosity/smoothing.h"
@@ -12,7 +13,7 @@ namespace {
 
 // Appends a row in single precision: each entry takes over what rounding left of the one before,
 // so that rows still close.
-void append_rounded(std::span<const double> row, std::vector<float>& values) {
+void append_rounded(std::span<const double> row, LargeVector<float>& values) {
     double left = 0.0;
     for (const double value : row) {
         const auto rounded = static_cast<float>(std::max(0.0, value + left));
@@ -86,17 +87,48 @@ std::vector<ExchangeAreas> make_all_rows(const MakeRows& make, const Discretizat
     return areas;
 }
 
-// Adds Σ_j M_ij · g_j to the sums of all rows, given g one an element; outside has none.
-template <class Vector>
-void add_moments(const ExchangeAreas& areas, std::vector<Vector> gradients,
-                 std::vector<double>& sums) {
-    gradients.emplace_back(0.0f);
+// Σ_k term(k), in four sums side by side: an addition need not wait for the one before.
+template <class Term>
+double sum_of(std::size_t begin, std::size_t end, Term&& term) {
+    std::array<double, 4> sums{};
+    std::size_t k = begin;
+    for (; k + 4 <= end; k += 4)
+        for (std::size_t lane = 0; lane < 4; ++lane) sums[lane] += term(k + lane);
+    for (; k < end; ++k) sums[0] += term(k);
+    return (sums[0] + sums[1]) + (sums[2] + sums[3]);
+}
+
+// One sum a row, of term(k) of its entries k.
+template <class Term>
+std::vector<double> sums_of_rows(const ExchangeAreas& areas, Term&& term) {
+    std::vector<double> sums(areas.rows());
     tbb::parallel_for(std::size_t(0), sums.size(), [&](std::size_t i) {
-        double sum = sums[i];
-        for (std::size_t k = areas.starts[i]; k < areas.starts[i + 1]; ++k)
-            sum += glm::dot(Vector(areas.moments[k]), gradients[areas.columns[k]]);
-        sums[i] = sum;
+        sums[i] = sum_of(areas.starts[i], areas.starts[i + 1], term);
     });
+    return sums;
+}
+
+// What a column holds, with its gradient: side by side, since an entry needs both.
+template <class Vector>
+struct Held {
+    double x = 0.0;
+    Vector gradient{0.0f};
+};
+
+// Σ_j S_ij x_j + M_ij · g_j of every row; outside has the last column and holds nothing.
+template <class Vector>
+std::vector<double> multiply_linear(const ExchangeAreas& areas, std::span<const double> x,
+                                    const std::vector<Vector>& gradients) {
+    std::vector<Held<Vector>> held(x.size() + 1);
+    for (std::size_t i = 0; i < x.size(); ++i) held[i] = {x[i], gradients[i]};
+    const auto term = [&](double area, std::size_t k) {
+        const Held<Vector>& at = held[areas.columns[k]];
+        return area * at.x + static_cast<double>(glm::dot(Vector(areas.moments[k]), at.gradient));
+    };
+    if (areas.remainders.empty())
+        return sums_of_rows(
+            areas, [&](std::size_t k) { return term(static_cast<double>(areas.values[k]), k); });
+    return sums_of_rows(areas, [&](std::size_t k) { return term(areas.value(k), k); });
 }
 
 }  // namespace
@@ -139,6 +171,10 @@ std::vector<ExchangeAreas> all_rows(BandsExchangeMethod method,
 
 std::vector<double> multiply(const ExchangeAreas& areas, const Elements& elements,
                              std::span<const double> x) {
+    // Rows in double precision are for solutions to as many digits.
+    if (!areas.moments.empty() && !areas.remainders.empty())
+        return multiply_linear(areas, x, areas.gradients->unrounded(x));
+    if (!areas.moments.empty()) return multiply_linear(areas, x, areas.gradients->of(x));
     // Outside has the value 0: no entry needs to ask.
     std::vector<double> values;
     if (areas.levels.empty()) {
@@ -147,22 +183,12 @@ std::vector<double> multiply(const ExchangeAreas& areas, const Elements& element
     } else {
         values = areas.levels.pull(x);
     }
-    const bool remainders = !areas.remainders.empty();
-    std::vector<double> result(areas.rows());
-    tbb::parallel_for(std::size_t(0), result.size(), [&](std::size_t i) {
-        double sum = 0.0;
-        for (std::size_t k = areas.starts[i]; k < areas.starts[i + 1]; ++k)
-            sum += static_cast<double>(areas.values[k]) * values[areas.columns[k]];
-        for (std::size_t k = areas.starts[i]; remainders && k < areas.starts[i + 1]; ++k)
-            sum += static_cast<double>(areas.remainders[k]) * values[areas.columns[k]];
-        result[i] = sum;
-    });
-    // Rows in double precision are for solutions to as many digits.
-    if (!areas.moments.empty() && remainders)
-        add_moments(areas, areas.gradients->unrounded(x), result);
-    else if (!areas.moments.empty())
-        add_moments(areas, areas.gradients->of(x), result);
-    return result;
+    if (areas.remainders.empty())
+        return sums_of_rows(areas, [&](std::size_t k) {
+            return static_cast<double>(areas.values[k]) * values[areas.columns[k]];
+        });
+    return sums_of_rows(areas,
+                        [&](std::size_t k) { return areas.value(k) * values[areas.columns[k]]; });
 }
 
 double entry(const ExchangeAreas& areas, std::size_t row, std::uint32_t column) {

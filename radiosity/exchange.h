@@ -10,6 +10,7 @@
 
 #include "radiosity/elements.h"
 #include "radiosity/gradients.h"
+#include "radiosity/large_vector.h"
 #include "radiosity/options.h"
 #include "radiosity/progress.h"
 #include "radiosity/row_levels.h"
@@ -84,11 +85,11 @@ struct SmoothingReport {
 // Rows in compressed form; row i is [starts[i], starts[i+1]).
 struct ExchangeAreas {
     std::vector<std::size_t> starts{0};
-    std::vector<std::uint32_t> columns;
-    std::vector<float> values;       // so rounded that a row keeps its sum [m^2]
-    std::vector<float> remainders;   // what that leaves of values in double precision: smoothed
+    LargeVector<std::uint32_t> columns;
+    LargeVector<float> values;       // so rounded that a row keeps its sum [m^2]
+    LargeVector<float> remainders;   // what that leaves of values in double precision: smoothed
                                      // rows have them; empty: it is not kept [m^2]
-    std::vector<glm::vec3> moments;  // of the entries; empty: elements hold constants [m^3]
+    LargeVector<glm::vec3> moments;  // of the entries; empty: elements hold constants [m^3]
     RowLevels levels;                // what columns beyond outside stand for; empty: there are none
     std::shared_ptr<const ElementGradients> gradients;  // that the moments multiply
     std::optional<SmoothingReport> smoothing;           // of rows that were smoothed

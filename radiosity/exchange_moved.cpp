@@ -1,5 +1,7 @@
 #include "radiosity/exchange_moved.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 
 #include "radiosity/row_walker.h"
@@ -10,6 +12,9 @@ namespace {
 // Rows that a task makes. Much is copied and little computed: what a batch of tasks makes should
 // fit into a cache, or nearly.
 constexpr std::size_t longest_run = 4;
+
+// Of a squared sine, of directions in single precision.
+constexpr double direction_rounding = 1e-6;
 
 using PlacedShare = InBands<glm::dvec4, 1>;
 using PlacedSums = PlacedShares<1>;
@@ -23,7 +28,12 @@ class MovedRows {
           options_(options),
           row_now_(now, options, std::span(&options.band, 1), points),
           row_before_(before.discretization, options, std::span(&options.band, 1), points),
-          walked_(walked) {}
+          walked_(walked) {
+        for (const Enclosure* e : {&before.discretization.enclosure, &now.enclosure})
+            bodies_.insert(bodies_.end(), e->mesh.bodies.begin(), e->mesh.bodies.end());
+        for (std::uint32_t c = 0; linear() && c <= now.elements.size(); ++c)
+            moves_.push_back(row_before_.centre(c) != row_now_.centre(c));
+    }
 
     void row(ElementId id, PlacedSums& sums, FinishedRows& rows) const {
         if (!add_changes(id.value, sums)) {
@@ -32,12 +42,15 @@ class MovedRows {
             return;
         }
         // Kept entries and changes are both in the order of columns.
+        const auto& columns = before_.areas.columns;
         std::size_t next = before_.areas.starts[id.value];
         const std::size_t end = before_.areas.starts[id.value + 1];
         sums.take([&](std::uint32_t column, const PlacedShare& of_band) {
-            for (; next < end && before_.areas.columns[next] < column; ++next) copy(next, rows);
+            std::size_t first = next;
+            while (next < end && columns[next] < column) ++next;
+            copy(first, next, rows);
             glm::dvec4 sum = of_band.of[0];
-            if (next < end && before_.areas.columns[next] == column) sum += kept(next++);
+            if (next < end && columns[next] == column) sum += kept(next++);
             if (!(sum.x > 0.0)) return;
             rows.columns.push_back(column);
             rows.values.push_back(sum.x);
@@ -45,7 +58,7 @@ class MovedRows {
             const Point place(sum.y, sum.z, sum.w);
             rows.moments.push_back(place - sum.x * (row_now_.centre(column) - row_now_.middle()));
         });
-        for (; next < end; ++next) copy(next, rows);
+        copy(next, end, rows);
         rows.ends.push_back(rows.columns.size());
     }
 
@@ -60,17 +73,21 @@ class MovedRows {
                                            FacetId(now_.forest.base_facet_side(e.patches[i]) / 2)))
             return false;
         if (row_now_.capacity(i, 0) != row_before_.capacity(i, 0)) return false;
+        const Forest& forest = now_.forest;
+        const auto targets =
+            e.is_patch(i)
+                ? targets_of(forest.centroid(e.patches[i]), forest[e.patches[i]].longest_edge)
+                : targets_of(forest.centroid(e.zone(i)), forest[e.zone(i)].longest_edge);
         thread_local std::vector<std::size_t> met;
         met.clear();
-        double count = 0.0;
         for (std::size_t k = 0; k < options_.rays; ++k) {
+            if (!may_meet(targets, Direction(before_.directions[i * options_.rays + k]))) continue;
             const RayStart<1> at = row_now_.start(i, k);
-            count += at.weight[0];
-            if (!meets(now_.enclosure, at.ray) && !meets(before_.discretization.enclosure, at.ray))
-                continue;
+            if (!meets(at.ray)) continue;
             if (!row_now_.open(i, at) || !row_before_.open(i, at)) return false;
             met.push_back(k);
         }
+        const double count = weight_of_rays(i);
         if (!(count > 0.0)) return false;
         const double scale = row_now_.capacity(i, 0) / count;
         walked_ += met.size();
@@ -82,10 +99,48 @@ class MovedRows {
         return true;
     }
 
-    static bool meets(const Enclosure& enclosure, const mesh::Ray& ray) {
-        return std::ranges::any_of(enclosure.mesh.bodies, [&](const mesh::Body& body) {
-            return mesh::meets_sphere(body, ray);
+    // A body as an element may meet it: from the element's middle, a sphere grown by its size.
+    struct Target {
+        Direction to;  // the sphere's centre
+        double square, radius_square;
+    };
+
+    std::vector<Target> targets_of(Point middle, double size) const {
+        std::vector<Target> targets;
+        for (const mesh::Body& body : bodies_) {
+            const Direction to = body.centre - middle;
+            const double radius = body.radius + size;
+            targets.push_back({to, glm::dot(to, to), radius * radius});
+        }
+        return targets;
+    }
+
+    // Whether a ray meets any of them from anywhere in its element. Where rays start takes most of
+    // what they cost, and most meet none.
+    static bool may_meet(std::span<const Target> targets, Direction direction) {
+        return std::ranges::any_of(targets, [&](const Target& target) {
+            const double along = glm::dot(target.to, direction);
+            const double beside = target.square * (1.0 - direction_rounding) - along * along;
+            return target.square <= target.radius_square ||
+                   (along > 0.0 && beside <= target.radius_square);
         });
+    }
+
+    bool meets(const mesh::Ray& ray) const {
+        return std::ranges::any_of(
+            bodies_, [&](const mesh::Body& body) { return mesh::meets_sphere(body, ray); });
+    }
+
+    // Of all the element's rays; each counts 1, but in media that vary.
+    double weight_of_rays(std::size_t i) const {
+        const Elements& e = now_.elements;
+        double count = static_cast<double>(options_.rays);
+        if (e.is_patch(i) ||
+            !now_.enclosure.varying(now_.forest.base_tet(e.zone(i)), options_.band))
+            return count;
+        count = 0.0;
+        for (std::size_t k = 0; k < options_.rays; ++k) count += row_now_.start(i, k).weight[0];
+        return count;
     }
 
     // An entry of the row before, and the sum of its deposits' places.
@@ -97,16 +152,24 @@ class MovedRows {
         return {value, Point(areas.moments[k]) + value * centre};
     }
 
-    void copy(std::size_t k, FinishedRows& rows) const {
+    // Entries of the row before.
+    void copy(std::size_t first, std::size_t end, FinishedRows& rows) const {
         const ExchangeAreas& areas = before_.areas;
-        const auto column = areas.columns[k];
-        const double value = areas.value(k);
-        if (!(value > 0.0)) return;
-        rows.columns.push_back(column);
-        rows.values.push_back(value);
-        if (linear())
-            rows.moments.push_back(Direction(areas.moments[k]) +
-                                   value * (row_before_.centre(column) - row_now_.centre(column)));
+        const auto part = [&](const auto& all) {
+            return std::span(all).subspan(first, end - first);
+        };
+        const auto columns = part(areas.columns);
+        const auto values = part(areas.values);
+        rows.columns.insert(rows.columns.end(), columns.begin(), columns.end());
+        rows.values.insert(rows.values.end(), values.begin(), values.end());
+        if (!linear()) return;
+        const auto moments = part(areas.moments);
+        rows.moments.insert(rows.moments.end(), moments.begin(), moments.end());
+        Direction* const copied = rows.moments.data() + (rows.moments.size() - moments.size());
+        for (std::size_t k = 0; k < columns.size(); ++k)
+            if (const auto column = columns[k]; moves_[column])
+                copied[k] += static_cast<double>(values[k]) *
+                             (row_before_.centre(column) - row_now_.centre(column));
     }
 
     static PlacedShare placed(const glm::dvec4& share) {
@@ -131,10 +194,23 @@ class MovedRows {
     const RowsBefore& before_;
     const ExchangeOptions& options_;
     RowWalker<1> row_now_, row_before_;
+    std::vector<mesh::Body> bodies_;  // before and now
+    std::vector<bool> moves_;         // columns' centres do; where there are moments
     std::atomic<std::size_t>& walked_;
 };
 
 }  // namespace
+
+std::vector<glm::vec3> ray_directions(const Discretization& d, const ExchangeOptions& options) {
+    const PointSet points(options.rays, options.settings.point_set);
+    const RowWalker<1> walker(d, options, std::span(&options.band, 1), points);
+    std::vector<glm::vec3> directions(d.elements.size() * options.rays);
+    tbb::parallel_for(std::size_t(0), d.elements.size(), [&](std::size_t i) {
+        for (std::size_t k = 0; k < options.rays; ++k)
+            directions[i * options.rays + k] = glm::vec3(walker.start(i, k).ray.direction);
+    });
+    return directions;
+}
 
 ExchangeAreas moved_rows(const Discretization& now, const RowsBefore& before,
                          const ExchangeOptions& options, std::atomic<std::size_t>& walked) {

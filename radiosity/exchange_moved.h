@@ -12,7 +12,14 @@ namespace tyndall::radiosity {
 struct RowsBefore {
     Discretization discretization;
     const ExchangeAreas& areas;
+    std::span<const glm::vec3> directions;  // ray_directions
 };
+
+// Purpose: the directions of the rays that exchange_walked makes rows of, in single precision
+//   ([element * rays + ray]), which tell of most that they meet no body.
+// Cost: the start of every ray; 12 bytes each.
+std::vector<glm::vec3> ray_directions(const Discretization& discretization,
+                                      const ExchangeOptions& options);
 
 // Purpose: the rows that exchange_walked makes of `now`. Every ray has its own number in its row's
 //   point set, so that it is the same ray before and now unless its element has moved:
@@ -23,7 +30,8 @@ struct RowsBefore {
 //   forest's leaves; no level of detail, no interaction radius, no smoothing.
 // Error: that of the single precision in which rows are kept: 1e-7 of a row, each time from the
 //   same rows before, so that nothing adds up.
-// Cost: the start of every ray, and two walks for those that meet a sphere; `walked` counts these.
+// Cost: a look at the direction of every ray, and two walks for those that meet a sphere; `walked`
+//   counts these.
 // Source: Chen (1990), Incremental Radiosity, whose negative shots are of surfaces.
 ExchangeAreas moved_rows(const Discretization& now, const RowsBefore& before,
                          const ExchangeOptions& options, std::atomic<std::size_t>& walked);

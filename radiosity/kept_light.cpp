@@ -37,6 +37,7 @@ std::size_t KeptLight::memory() const {
     for (const auto* values : {&gathered_from, &lit_in_middles, &coarse_errors})
         bytes += values->size() * sizeof(double);
     for (const ExchangeAreas& one : areas) bytes += one.memory();
+    bytes += directions.size() * sizeof(glm::vec3);
     return bytes;
 }
 
@@ -55,15 +56,20 @@ void KeptLight::finish(std::shared_ptr<const Enclosure> of, const Forest& leaves
 }
 
 std::vector<double> gathered_from(const CoarseSolution& coarse,
-                                  const std::vector<double>& incident_direct) {
+                                  const std::vector<double>& incident_direct,
+                                  const std::vector<double>& incident_lit) {
     const Elements& e = coarse.elements();
-    std::vector<double> result(e.size() * e.bands);
+    std::vector<double> sent, by_rows;
     for (std::size_t i = 0; i < e.size(); ++i)
         for (std::size_t b = 0; b < e.bands; ++b) {
             const std::size_t k = i * e.bands + b;
-            result[k] = coarse.reflected(i, b);
-            if (e.is_patch(i)) result[k] -= e.scatter[k] * incident_direct[k];
+            sent.push_back(coarse.reflected(i, b));
+            if (e.is_patch(i)) sent.back() -= e.scatter[k] * incident_direct[k];
+            by_rows.push_back(coarse.by_rows(i, b));
         }
+    std::vector<double> result = std::move(sent);
+    result.insert(result.end(), incident_lit.begin(), incident_lit.end());
+    result.insert(result.end(), by_rows.begin(), by_rows.end());
     return result;
 }
 
@@ -105,7 +111,9 @@ std::vector<double> moved_incident_lit(const KeptLight& before, const Enclosure&
                                        const Forest& forest, const Elements& elements,
                                        const LitPatches& lit) {
     const auto bodies = bodies_of(*before.enclosure, enclosure);
-    const auto means = std::span(before.gathered_from).subspan(elements.size() * elements.bands);
+    const auto means =
+        std::span(before.gathered_from)
+            .subspan(elements.size() * elements.bands, elements.size() * elements.bands);
     return incident_lit(enclosure, forest, elements, lit, {means, before.lit_in_middles, bodies});
 }
 
@@ -119,33 +127,27 @@ GatherChange::GatherChange(const KeptLight& before, const Now& now, double error
     for (auto* functions : {&of_sources_, &of_lit_, &far_}) functions->resize(n * bands_);
     std::size_t made = 0;
     std::vector<std::size_t> distinct;  // of the bands, as CoarseSolution has them
-    std::vector<double> r(n), change(n), lit(n);
+    const auto change_in = [&](std::size_t part, std::size_t k) {
+        return now.gathered_from[part * n * bands_ + k] -
+               before.gathered_from[part * n * bands_ + k];
+    };
+    std::vector<double> sent(n), lit(n), all(n);
     for (std::size_t b = 0; b < bands_; ++b) {
         const std::size_t same = first_of_extinction(now.enclosure, b);
         distinct.push_back(same < b ? distinct[same] : made++);
-        const ExchangeAreas& rows = now.areas[distinct[b]];
-        const ExchangeAreas& rows_before = before.areas[distinct[b]];
+        const ExchangeAreas& rows = before.areas[distinct[b]];
         for (std::size_t i = 0; i < n; ++i) {
             const std::size_t k = i * bands_ + b;
-            r[i] = now.gathered_from[k];
-            change[i] = r[i] - before.gathered_from[k];
-            lit[i] = now.gathered_from[n * bands_ + k] - before.gathered_from[n * bands_ + k];
+            sent[i] = change_in(0, k);
+            lit[i] = change_in(1, k);
+            all[i] = change_in(2, k) + lit[i];  // (66)
         }
-        const std::vector<double> kept_rows = multiply(rows_before, e, change);
-        std::vector<double> moved_rows = multiply(rows, e, r);
-        for (std::size_t i = 0; i < n; ++i) r[i] -= change[i];
-        const std::vector<double> first = multiply(rows_before, e, r);
-        for (std::size_t i = 0; i < n; ++i) {
-            const double c = std::max(e.capacity[i * bands_ + b], 1e-300);
-            const double outside = to_outside(rows, e, i) - to_outside(rows_before, e, i);
-            change[i] = kept_rows[i] / c;  // (50)
-            moved_rows[i] =
-                (moved_rows[i] - first[i] + outside * now.enclosure.environment[b]) / c +
-                lit[i];  // (66)
-        }
-        set_linear(before, rows_before, change, b, of_sources_.data());
-        set_linear(before, rows_before, lit, b, of_lit_.data());
-        set_linear(before, rows_before, moved_rows, b, far_.data());
+        std::vector<double> of_sources = multiply(rows, e, sent);  // (50)
+        for (std::size_t i = 0; i < n; ++i)
+            of_sources[i] /= std::max(e.capacity[i * bands_ + b], 1e-300);
+        set_linear(before, rows, of_sources, b, of_sources_.data());
+        set_linear(before, rows, lit, b, of_lit_.data());
+        set_linear(before, rows, all, b, far_.data());
     }
 }
 

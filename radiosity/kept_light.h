@@ -24,9 +24,10 @@ struct KeptLight {
     std::shared_ptr<const Enclosure> enclosure;
     Forest coarse_forest;  // whose leaves are the coarse solution's elements
     Elements elements;
-    std::vector<ExchangeAreas> areas;  // of each distinct extinction
+    std::vector<ExchangeAreas> areas;   // of each distinct extinction
+    std::vector<glm::vec3> directions;  // of their rays (exchange_moved.h)
     // r of the elements, of patches less what they reflect of direct light; after these H from what
-    // patches reflect of it ([element * bands + band], twice) [W/m^2/sr].
+    // patches reflect of it, and H by rows ([element * bands + band], thrice) [W/m^2/sr].
     std::vector<double> gathered_from;
     std::vector<double> lit_in_middles;  // incident_lit.h
     std::vector<double> coarse_errors;   // error_estimate.h
@@ -46,10 +47,11 @@ std::string why_nothing_kept(const SolveOptions& options);
 // Whether a solve of this enclosure can begin with it: the same mesh, bodies of the same triangles.
 bool fits(const KeptLight& kept, const Enclosure& enclosure);
 
-// r of the coarse elements, of patches less what they reflect of direct light, given H^A of the
-// elements ([element * bands + band]) [W/m^2/sr].
+// KeptLight::gathered_from of a solution, given H^A of its elements and H from lit patches
+// ([element * bands + band]) [W/m^2/sr].
 std::vector<double> gathered_from(const CoarseSolution& coarse,
-                                  const std::vector<double>& incident_direct);
+                                  const std::vector<double>& incident_direct,
+                                  const std::vector<double>& incident_lit);
 
 // The bodies of both, those of the first first.
 std::vector<mesh::Body> bodies_of(const Enclosure& before, const Enclosure& now);
@@ -66,6 +68,7 @@ std::vector<double> moved_incident_lit(const KeptLight& before, const Enclosure&
 //     ΔH_i = Σ_j S_ij⁰ (r_j − r_j⁰) / c_i                                               (50)
 //   and far from all bodies
 //     H_i = H_i⁰ + Σ_j (S_ij r_j − S_ij⁰ r_j⁰) / c_i + P − P⁰                           (66)
+//   whose sums the solutions have: H by rows.
 // Symbols: L⁰ what a ray found before, L what it finds now.
 //   The sum over rays is exact. ΔH, what other rays find more or less since all light has changed a
 //   little, and P, what lit patches bring, are the coarse solution's, linear in its elements.
@@ -73,11 +76,9 @@ std::vector<double> moved_incident_lit(const KeptLight& before, const Enclosure&
 //   h, what is linear over the element misses about f (h/d)²/8; it may miss a tenth of the goal.
 class GatherChange {
   public:
-    // The scene now: its rows of each distinct extinction, and `gathered_from` as that of
-    // KeptLight.
+    // The scene now, and `gathered_from` as that of KeptLight.
     struct Now {
         const Enclosure& enclosure;
-        const std::vector<ExchangeAreas>& areas;
         std::vector<double> gathered_from;
     };
     // `error`: the solve's goal. Keeps `before`.

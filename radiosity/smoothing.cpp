@@ -23,7 +23,7 @@ using Values = std::vector<double>;
 // Rows of a symmetric matrix, entries on both sides of the diagonal; the last column is outside.
 struct Symmetric {
     std::vector<std::size_t> starts{0};
-    std::vector<std::uint32_t> columns;
+    LargeVector<std::uint32_t> columns;
     std::vector<double> values;
 
     std::size_t rows() const { return starts.size() - 1; }

@@ -86,8 +86,9 @@ TEST_CASE("Moved rows are those walked anew", "[moving]") {
     const RowsWithBox before(there, 64), now(elsewhere, 64);
     const ExchangeAreas kept = before.walked(), walked = now.walked();
     std::atomic<std::size_t> rays = 0;
-    const ExchangeAreas moved =
-        moved_rows(now.discretization(), {before.discretization(), kept}, now.options, rays);
+    const auto directions = ray_directions(before.discretization(), before.options);
+    const ExchangeAreas moved = moved_rows(
+        now.discretization(), {before.discretization(), kept, directions}, now.options, rays);
     CHECK(double(rays) < 0.5 * double(64 * now.elements.size()));
     REQUIRE(moved.rows() == walked.rows());
     const std::size_t n = now.elements.size();

@@ -1,0 +1,52 @@
+// Vectors of millions of values, in huge pages where the system has them.
+#pragma once
+
+#include <sys/mman.h>
+
+#include <cstdlib>
+#include <new>
+#include <vector>
+
+namespace tyndall::radiosity {
+
+// Memory comes in pages, each of which costs a microsecond or more when it is first written to: for
+// rows, as much as a product with them takes, and more. Pages of 2 MiB cost as much as those of
+// 4 KiB, and there are 512 times fewer.
+template <class T>
+struct HugePages {
+    using value_type = T;
+
+    HugePages() = default;
+    template <class Other>
+    HugePages(const HugePages<Other>&) {}
+
+    T* allocate(std::size_t count) {
+        const std::size_t bytes = count * sizeof(T);
+        if (count > static_cast<std::size_t>(-1) / 2 / sizeof(T)) throw std::bad_alloc();
+        const bool large = bytes >= 2 * page;
+        void* memory = large ? std::aligned_alloc(page, (bytes + page - 1) / page * page)
+                             : std::malloc(bytes > 0 ? bytes : 1);
+        if (!memory) throw std::bad_alloc();
+#ifdef MADV_HUGEPAGE
+        // What is not written to is not taken, but for the last page. A system without huge pages
+        // says no: nothing is lost.
+        if (large) madvise(memory, bytes / page * page, MADV_HUGEPAGE);
+#endif
+        return static_cast<T*>(memory);
+    }
+    void deallocate(T* memory, std::size_t) {
+        std::free(memory);
+    }
+
+    friend bool operator==(HugePages, HugePages) {
+        return true;
+    }
+
+  private:
+    static constexpr std::size_t page = std::size_t(2) << 20;
+};
+
+template <class T>
+using LargeVector = std::vector<T, HugePages<T>>;
+
+}  // namespace tyndall::radiosity
