@@ -11,17 +11,6 @@
 namespace tyndall::radiosity {
 namespace {
 
-// Appends a row in single precision: each entry takes over what rounding left of the one before,
-// so that rows still close.
-void append_rounded(std::span<const double> row, LargeVector<float>& values) {
-    double left = 0.0;
-    for (const double value : row) {
-        const auto rounded = static_cast<float>(std::max(0.0, value + left));
-        left += value - static_cast<double>(rounded);
-        values.push_back(rounded);
-    }
-}
-
 // make(rows, options, sinks) of a method.
 using MakeRows = std::function<void(std::span<const ElementId>, const ExchangeOptions&,
                                     std::span<const RowSink>)>;
@@ -136,7 +125,8 @@ std::vector<double> multiply_linear(const ExchangeAreas& areas, std::span<const 
 void append(ExchangeAreas& areas, const Row& row, Precision precision) {
     areas.columns.insert(areas.columns.end(), row.columns.begin(), row.columns.end());
     if (precision == Precision::single_sums) {
-        append_rounded(row.exchange_areas, areas.values);
+        RowRounding rounded;
+        for (const double value : row.exchange_areas) areas.values.push_back(rounded(value));
     } else {
         for (const double value : row.exchange_areas) {
             areas.values.push_back(static_cast<float>(value));

@@ -1,6 +1,7 @@
 // Exchange areas: what a method takes and gives, and rows kept as a sparse matrix.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <functional>
 #include <memory>
@@ -104,6 +105,20 @@ struct ExchangeAreas {
                moments.size() * sizeof(glm::vec3) + levels.memory() +
                (gradients ? gradients->memory() : 0);
     }
+};
+
+// A row's entries, one after the other, in single precision: each takes over what rounding left of
+// the one before, so that rows still close.
+class RowRounding {
+  public:
+    float operator()(double value) {
+        const auto rounded = static_cast<float>(std::max(0.0, value + left_));
+        left_ += value - static_cast<double>(rounded);
+        return rounded;
+    }
+
+  private:
+    double left_ = 0.0;
 };
 
 // How rows are kept: in single precision with their sums, or with the first 48 bits of a double's

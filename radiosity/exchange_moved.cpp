@@ -1,5 +1,6 @@
 #include "radiosity/exchange_moved.h"
 
+#include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -9,15 +10,18 @@
 namespace tyndall::radiosity {
 namespace {
 
-// Rows that a task makes. Much is copied and little computed: what a batch of tasks makes should
-// fit into a cache, or nearly.
-constexpr std::size_t longest_run = 4;
-
 // Of a squared sine, of directions in single precision.
 constexpr double direction_rounding = 1e-6;
 
 using PlacedShare = InBands<glm::dvec4, 1>;
 using PlacedSums = PlacedShares<1>;
+
+// What a row is now: kept entries, but for these; or these alone.
+struct ChangedRow {
+    FinishedRows entries;  // in the order of columns
+    bool whole = false;
+    std::size_t size = 0;  // of the row with those kept
+};
 
 class MovedRows {
   public:
@@ -31,35 +35,66 @@ class MovedRows {
           walked_(walked) {
         for (const Enclosure* e : {&before.discretization.enclosure, &now.enclosure})
             bodies_.insert(bodies_.end(), e->mesh.bodies.begin(), e->mesh.bodies.end());
-        for (std::uint32_t c = 0; linear() && c <= now.elements.size(); ++c)
-            moves_.push_back(row_before_.centre(c) != row_now_.centre(c));
     }
 
-    void row(ElementId id, PlacedSums& sums, FinishedRows& rows) const {
+    ChangedRow changes(ElementId id, PlacedSums& sums) const {
+        ChangedRow row;
+        FinishedRows& entries = row.entries;
         if (!add_changes(id.value, sums)) {
             walked_ += options_.rays;
-            row_now_.row(id, sums, std::span(&rows, 1));
-            return;
+            row_now_.row(id, sums, std::span(&entries, 1));
+            row.whole = true;
+            row.size = entries.columns.size();
+            return row;
         }
-        // Kept entries and changes are both in the order of columns.
         const auto& columns = before_.areas.columns;
         std::size_t next = before_.areas.starts[id.value];
         const std::size_t end = before_.areas.starts[id.value + 1];
+        row.size = end - next;
         sums.take([&](std::uint32_t column, const PlacedShare& of_band) {
-            std::size_t first = next;
             while (next < end && columns[next] < column) ++next;
-            copy(first, next, rows);
             glm::dvec4 sum = of_band.of[0];
-            if (next < end && columns[next] == column) sum += kept(next++);
-            if (!(sum.x > 0.0)) return;
-            rows.columns.push_back(column);
-            rows.values.push_back(sum.x);
+            const bool had = next < end && columns[next] == column;
+            if (had) sum += kept(next);
+            if (!(sum.x > 0.0)) {
+                if (!had) return;
+                sum = glm::dvec4(0.0);
+            }
+            if (!had) ++row.size;
+            entries.columns.push_back(column);
+            entries.values.push_back(sum.x);
             if (!linear()) return;
             const Point place(sum.y, sum.z, sum.w);
-            rows.moments.push_back(place - sum.x * (row_now_.centre(column) - row_now_.middle()));
+            entries.moments.push_back(place -
+                                      sum.x * (row_now_.centre(column) - row_now_.middle()));
         });
-        copy(next, end, rows);
-        rows.ends.push_back(rows.columns.size());
+        return row;
+    }
+
+    // Into its place in the new rows. Columns that have moved are bodies', and what they have had
+    // is among the changes: the moments of all that is kept are about the same points.
+    void write(std::size_t i, const ChangedRow& row, ExchangeAreas& areas) const {
+        const ExchangeAreas& before = before_.areas;
+        const FinishedRows& entries = row.entries;
+        std::size_t to = areas.starts[i], from = before.starts[i];
+        const std::size_t end = row.whole ? from : before.starts[i + 1];
+        const auto keep_before = [&](std::uint32_t column) {
+            for (; from < end && before.columns[from] < column; ++from, ++to) {
+                areas.columns[to] = before.columns[from];
+                areas.values[to] = before.values[from];
+                if (linear()) areas.moments[to] = before.moments[from];
+            }
+        };
+        RowRounding rounded;
+        for (std::size_t k = 0; k < entries.columns.size(); ++k, ++to) {
+            const std::uint32_t column = entries.columns[k];
+            keep_before(column);
+            if (from < end && before.columns[from] == column) ++from;
+            areas.columns[to] = column;
+            areas.values[to] = rounded(entries.values[k]);
+            if (linear()) areas.moments[to] = glm::vec3(entries.moments[k]);
+        }
+        keep_before(none);
     }
 
   private:
@@ -152,26 +187,6 @@ class MovedRows {
         return {value, Point(areas.moments[k]) + value * centre};
     }
 
-    // Entries of the row before.
-    void copy(std::size_t first, std::size_t end, FinishedRows& rows) const {
-        const ExchangeAreas& areas = before_.areas;
-        const auto part = [&](const auto& all) {
-            return std::span(all).subspan(first, end - first);
-        };
-        const auto columns = part(areas.columns);
-        const auto values = part(areas.values);
-        rows.columns.insert(rows.columns.end(), columns.begin(), columns.end());
-        rows.values.insert(rows.values.end(), values.begin(), values.end());
-        if (!linear()) return;
-        const auto moments = part(areas.moments);
-        rows.moments.insert(rows.moments.end(), moments.begin(), moments.end());
-        Direction* const copied = rows.moments.data() + (rows.moments.size() - moments.size());
-        for (std::size_t k = 0; k < columns.size(); ++k)
-            if (const auto column = columns[k]; moves_[column])
-                copied[k] += static_cast<double>(values[k]) *
-                             (row_before_.centre(column) - row_now_.centre(column));
-    }
-
     static PlacedShare placed(const glm::dvec4& share) {
         PlacedShare result(0.0);
         result.of[0] = share;
@@ -195,7 +210,6 @@ class MovedRows {
     const ExchangeOptions& options_;
     RowWalker<1> row_now_, row_before_;
     std::vector<mesh::Body> bodies_;  // before and now
-    std::vector<bool> moves_;         // columns' centres do; where there are moments
     std::atomic<std::size_t>& walked_;
 };
 
@@ -214,25 +228,24 @@ std::vector<glm::vec3> ray_directions(const Discretization& d, const ExchangeOpt
 
 ExchangeAreas moved_rows(const Discretization& now, const RowsBefore& before,
                          const ExchangeOptions& options, std::atomic<std::size_t>& walked) {
-    ExchangeAreas areas;
-    areas.starts.reserve(before.areas.starts.size());
-    areas.columns.reserve(before.areas.columns.size() + before.areas.columns.size() / 10);
-    areas.values.reserve(areas.columns.capacity());
-    areas.moments.reserve(before.areas.moments.empty() ? 0 : areas.columns.capacity());
-    if (options.radiance == Radiance::linear)
-        areas.gradients =
-            std::make_shared<const ElementGradients>(now.enclosure, now.forest, now.elements);
-    std::vector<ElementId> rows;
-    for (std::size_t i = 0; i < now.elements.size(); ++i) rows.push_back(ElementId(i));
+    const std::size_t n = now.elements.size();
     const PointSet points(options.rays, options.settings.point_set);
     const MovedRows moved(now, before, options, points, walked);
-    const std::size_t run = std::clamp<std::size_t>(rows.size() / 64, 1, longest_run);
-    make_row_batches(
-        now, rows, options, [&](const Row& row) { append(areas, row, Precision::single_sums); },
-        run, PlacedSums(now.elements.size() + 1),
-        [&](ElementId id, PlacedSums& sums, FinishedRows& finished) {
-            moved.row(id, sums, finished);
-        });
+    tbb::enumerable_thread_specific<PlacedSums> sums(PlacedSums(n + 1));
+    std::vector<ChangedRow> rows(n);
+    tbb::parallel_for(std::size_t(0), n,
+                      [&](std::size_t i) { rows[i] = moved.changes(ElementId(i), sums.local()); });
+    ExchangeAreas areas;
+    for (const ChangedRow& row : rows) areas.starts.push_back(areas.starts.back() + row.size);
+    areas.columns.resize(areas.starts.back());
+    areas.values.resize(areas.starts.back());
+    if (options.radiance == Radiance::linear) {
+        areas.moments.resize(areas.starts.back());
+        areas.gradients =
+            std::make_shared<const ElementGradients>(now.enclosure, now.forest, now.elements);
+    }
+    tbb::parallel_for(std::size_t(0), n, [&](std::size_t i) { moved.write(i, rows[i], areas); });
+    report(options.progress, {"exchange areas", 1.0, n, 0.0});
     return areas;
 }
 

@@ -5,6 +5,7 @@
 
 #include <cstdlib>
 #include <new>
+#include <utility>
 #include <vector>
 
 namespace tyndall::radiosity {
@@ -36,6 +37,17 @@ struct HugePages {
     }
     void deallocate(T* memory, std::size_t) {
         std::free(memory);
+    }
+
+    // `resize` leaves numbers as they are, for others to write: memory is gone over once, not
+    // twice.
+    template <class Element>
+    void construct(Element* place) {
+        ::new (static_cast<void*>(place)) Element;
+    }
+    template <class Element, class... Arguments>
+    void construct(Element* place, Arguments&&... arguments) {
+        ::new (static_cast<void*>(place)) Element(std::forward<Arguments>(arguments)...);
     }
 
     friend bool operator==(HugePages, HugePages) {
