@@ -198,10 +198,7 @@ class Loop {
               const IndirectRefiner& indirect) {
         KeptLight& kept = *kept_.keep;
         light_.keep_in(nullptr);
-        kept.elements = coarse.elements();
-        kept.areas = coarse.all_areas();
-        kept.directions = coarse.ray_directions();
-        kept.gathered_from = gathered_from(coarse, incident_direct_, incident_lit_);
+        kept.take(coarse, incident_direct_, incident_lit_);
         kept.lit_in_middles = lit_in_middles(*enclosure_, mesh_.forest(), coarse.elements(), lit);
         kept.scale = scale_;
         kept.settled = indirect.settled();

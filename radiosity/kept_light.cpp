@@ -45,6 +45,14 @@ std::size_t KeptLight::memory() const {
     return bytes;
 }
 
+void KeptLight::take(const CoarseSolution& coarse, const std::vector<double>& incident_direct,
+                     const std::vector<double>& incident_lit) {
+    elements = coarse.elements();
+    areas = coarse.all_areas();
+    directions = coarse.ray_directions();
+    gathered_from = radiosity::gathered_from(coarse, incident_direct, incident_lit);
+}
+
 void KeptLight::finish(std::shared_ptr<const Enclosure> of, const Forest& leaves,
                        Fields zone_sources, Fields patch_sources, double detail) {
     enclosure = std::move(of);

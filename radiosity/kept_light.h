@@ -16,6 +16,9 @@ struct KeptLight {
     explicit KeptLight(std::size_t bands) : direct(bands), gathers(2 * bands + 1) {}
 
     bool empty() const { return !enclosure; }
+    // What is kept of the coarse solution, given H^A of its elements and H from lit patches.
+    void take(const CoarseSolution& coarse, const std::vector<double>& incident_direct,
+              const std::vector<double>& incident_lit);
     // The last of what is kept: r of the leaves that was gathered from, and the places' values.
     void finish(std::shared_ptr<const Enclosure> of, const Forest& leaves, Fields zone_sources,
                 Fields patch_sources, double detail);
