@@ -29,8 +29,8 @@ constexpr double direct_share = 0.78, zone_share = 0.3;
 // rays: measured, 1 and 4 give the same picture, 4 in half the time.
 constexpr double detail_factor = 4.0;
 
-// Of the goal: what the linear system may leave where bodies have moved. The solution before, which
-// is begun with, is off by more than that already.
+// Of the goal: what the linear system may leave where bodies have moved, if solver_tolerance is no
+// more. What is kept of the solution before is no better.
 constexpr double moved_tolerance = 1e-3;
 
 // A mesh that is going to be promoted needs to be this much coarser than the next.

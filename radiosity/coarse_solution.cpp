@@ -1,7 +1,6 @@
 #include "radiosity/coarse_solution.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "radiosity/exchange_methods.h"

@@ -1,9 +1,11 @@
 // The rows of a coarse solution: made and kept, corrected, or made again whenever they are needed.
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "radiosity/coarse_solution.h"
 #include "radiosity/exchange_methods.h"
+#include "radiosity/exchange_moved.h"
 
 namespace tyndall::radiosity {
 

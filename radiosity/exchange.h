@@ -158,7 +158,8 @@ std::vector<ExchangeAreas> all_rows(BandsExchangeMethod method,
 double closure_error(const ExchangeAreas& areas, const Elements& elements, std::size_t band);
 
 // Σ_ij |S_ij − S_ji| / Σ_ij S_ij over the elements, outside left out [-]. Where columns stand for
-// several elements: estimated, from one of them drawn by its share. From about 256 rows at most.
+// several elements: estimated, from one of them drawn by its share. From 64 rows, or up to twice as
+// many.
 double reciprocity_error(const ExchangeAreas& areas, const Elements& elements);
 
 }  // namespace tyndall::radiosity

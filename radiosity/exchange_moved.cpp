@@ -56,17 +56,16 @@ class MovedRows {
             glm::dvec4 sum = of_band.of[0];
             const bool had = next < end && columns[next] == column;
             if (had) sum += kept(next);
-            if (!(sum.x > 0.0)) {
-                if (!had) return;
-                sum = glm::dvec4(0.0);
-            }
+            if (!(sum.x > 0.0) && !had) return;
             if (!had) ++row.size;
+            // What rounding leaves below 0 is 0, and a part of the next entry.
+            if (sum.x < 0.0) sum = glm::dvec4(sum.x, 0.0, 0.0, 0.0);
             entries.columns.push_back(column);
             entries.values.push_back(sum.x);
             if (!linear()) return;
             const Point place(sum.y, sum.z, sum.w);
-            entries.moments.push_back(place -
-                                      sum.x * (row_now_.centre(column) - row_now_.middle()));
+            const Point centre = row_now_.centre(column) - row_now_.middle();
+            entries.moments.push_back(sum.x > 0.0 ? place - sum.x * centre : Point(0.0));
         });
         return row;
     }
@@ -244,7 +243,10 @@ ExchangeAreas moved_rows(const Discretization& now, const RowsBefore& before,
         areas.gradients =
             std::make_shared<const ElementGradients>(now.enclosure, now.forest, now.elements);
     }
-    tbb::parallel_for(std::size_t(0), n, [&](std::size_t i) { moved.write(i, rows[i], areas); });
+    tbb::parallel_for(std::size_t(0), n, [&](std::size_t i) {
+        moved.write(i, rows[i], areas);
+        rows[i] = {};
+    });
     report(options.progress, {"exchange areas", 1.0, n, 0.0});
     return areas;
 }

@@ -12,11 +12,11 @@ namespace tyndall::radiosity {
 struct RowsBefore {
     Discretization discretization;
     const ExchangeAreas& areas;
-    std::span<const glm::vec3> directions;  // ray_directions
+    std::span<const glm::vec3> directions;  // ray_directions, by the same options
 };
 
-// Purpose: the directions of the rays that exchange_walked makes rows of, in single precision
-//   ([element * rays + ray]), which tell of most that they meet no body.
+// Purpose: the directions of the rays that exchange_walked makes rows of, unit vectors in single
+//   precision ([element * rays + ray]) [-], which tell of most that they meet no body.
 // Cost: the start of every ray; 12 bytes each.
 std::vector<glm::vec3> ray_directions(const Discretization& discretization,
                                       const ExchangeOptions& options);
@@ -27,11 +27,13 @@ std::vector<glm::vec3> ray_directions(const Discretization& discretization,
 //   with w of (21): "negative energy" takes away what such a ray left behind the body, and all of
 //   its new way is added. Rows of bodies, and of elements that one covers in part, are walked anew.
 // Valid for: enclosures that differ in the places of their bodies alone; elements the same, of the
-//   forest's leaves; no level of detail, no interaction radius, no smoothing.
+//   forest's leaves; the same rays, seed, point set and radiance; no level of detail, no
+//   interaction radius, no smoothing.
 // Error: that of the single precision in which rows are kept: 1e-7 of a row, each time from the
 //   same rows before, so that nothing adds up.
-// Cost: a look at the direction of every ray, and two walks for those that meet a sphere; `walked`
-//   counts these.
+// Cost: a look at the direction of every ray (in zones of media that vary, its start), the start of
+//   those that may meet a sphere, and two walks for those that do; `walked` counts these. Memory:
+//   the rows, and 36 bytes an entry that changes.
 // Source: Chen (1990), Incremental Radiosity, whose negative shots are of surfaces.
 ExchangeAreas moved_rows(const Discretization& now, const RowsBefore& before,
                          const ExchangeOptions& options, std::atomic<std::size_t>& walked);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "radiosity/incident_lit.h"
+#include "radiosity/indicators.h"
 
 namespace tyndall::radiosity {
 namespace {
@@ -93,6 +94,8 @@ std::string why_nothing_kept(const SolveOptions& o) {
     if (o.shots == Shots::on_the_fly) return "is solved with shots on the fly";
     if (o.promotions > 0) return "is solved with promotions";
     if (o.start == Start::single_zone) return "is solved with start = \"single-zone\"";
+    // These look at the coarse solution, which moved frames have only after direct light.
+    if (asks_for(o, "jump")) return "is refined by the indicator \"jump\"";
     if (o.indicator) return "is refined by an indicator of the caller's";
     return "";
 }

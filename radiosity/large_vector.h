@@ -3,6 +3,8 @@
 
 #include <sys/mman.h>
 
+#include <cstddef>
+#include <cstdint>
 #include <cstdlib>
 #include <new>
 #include <utility>
@@ -22,8 +24,8 @@ struct HugePages {
     HugePages(const HugePages<Other>&) {}
 
     T* allocate(std::size_t count) {
+        if (count > most / sizeof(T)) throw std::bad_alloc();
         const std::size_t bytes = count * sizeof(T);
-        if (count > static_cast<std::size_t>(-1) / 2 / sizeof(T)) throw std::bad_alloc();
         const bool large = bytes >= 2 * page;
         void* memory = large ? std::aligned_alloc(page, (bytes + page - 1) / page * page)
                              : std::malloc(bytes > 0 ? bytes : 1);
@@ -56,8 +58,11 @@ struct HugePages {
 
   private:
     static constexpr std::size_t page = std::size_t(2) << 20;
+    static constexpr std::size_t most = static_cast<std::size_t>(PTRDIFF_MAX) - page;
+    static_assert(alignof(T) <= alignof(std::max_align_t));
 };
 
+// A vector whose `resize`, and whose constructor from a size, leave new values unset.
 template <class T>
 using LargeVector = std::vector<T, HugePages<T>>;
 

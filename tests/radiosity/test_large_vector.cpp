@@ -1,7 +1,9 @@
 #include "radiosity/large_vector.h"
 
-#include <catch2/catch_test_macros.hpp>
 #include <cstdint>
+#include <new>
+
+#include "support/catch.h"
 
 using tyndall::radiosity::LargeVector;
 
