@@ -111,6 +111,7 @@ struct ExchangeAreas {
 // the one before, so that rows still close.
 class RowRounding {
   public:
+    // The next entry [m^2].
     float operator()(double value) {
         const auto rounded = static_cast<float>(std::max(0.0, value + left_));
         left_ += value - static_cast<double>(rounded);

@@ -17,12 +17,13 @@ namespace tyndall::radiosity {
 // 4 KiB, and there are 512 times fewer.
 template <class T>
 struct HugePages {
-    using value_type = T;
+    using value_type = T;  // what the allocator allocates
 
     HugePages() = default;
     template <class Other>
     HugePages(const HugePages<Other>&) {}
 
+    // Memory for `count` values, none of them made. Errors: std::bad_alloc.
     T* allocate(std::size_t count) {
         if (count > most / sizeof(T)) throw std::bad_alloc();
         const std::size_t bytes = count * sizeof(T);
@@ -37,6 +38,7 @@ struct HugePages {
 #endif
         return static_cast<T*>(memory);
     }
+    // Gives it back.
     void deallocate(T* memory, std::size_t) {
         std::free(memory);
     }
@@ -52,6 +54,7 @@ struct HugePages {
         ::new (static_cast<void*>(place)) Element(std::forward<Arguments>(arguments)...);
     }
 
+    // One gives back what another has allocated.
     friend bool operator==(HugePages, HugePages) {
         return true;
     }
