@@ -94,7 +94,7 @@ class Loop {
                 {*kept_.moved->enclosure, kept_.moved->coarse_forest, kept_.moved->elements},
                 kept_.moved->areas,
                 kept_.moved->directions,
-                std::span(kept_.moved->gathered_from).first(elements.size() * elements.bands)});
+                kept_.moved->gathered_from.sent});
         if (kept_.keep) kept_.keep->coarse_forest = mesh_.forest();
         CoarseSolution coarse(*enclosure_, mesh_.forest(), std::move(elements), options_, progress_,
                               rows ? &*rows : nullptr);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "radiosity/moving_bodies.h"
 #include "radiosity/row_walker.h"
 
 namespace tyndall::radiosity {
@@ -32,10 +33,8 @@ class MovedRows {
           options_(options),
           row_now_(now, options, std::span(&options.band, 1), points),
           row_before_(before.discretization, options, std::span(&options.band, 1), points),
-          walked_(walked) {
-        for (const Enclosure* e : {&before.discretization.enclosure, &now.enclosure})
-            bodies_.insert(bodies_.end(), e->mesh.bodies.begin(), e->mesh.bodies.end());
-    }
+          bodies_(bodies_of(before.discretization.enclosure, now.enclosure)),
+          walked_(walked) {}
 
     ChangedRow changes(ElementId id, PlacedSums& sums) const {
         ChangedRow row;

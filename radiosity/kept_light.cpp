@@ -5,6 +5,7 @@
 
 #include "radiosity/incident_lit.h"
 #include "radiosity/indicators.h"
+#include "radiosity/moving_bodies.h"
 
 namespace tyndall::radiosity {
 namespace {
@@ -39,7 +40,8 @@ void set_linear(const KeptLight& kept, const ExchangeAreas& areas, const std::ve
 std::size_t KeptLight::memory() const {
     std::size_t bytes =
         direct.memory() + gathers.memory() + 2 * forest.memory() + coarse_forest.memory();
-    for (const auto* values : {&gathered_from, &lit_in_middles, &coarse_errors})
+    for (const auto* values : {&gathered_from.sent, &gathered_from.by_lit, &gathered_from.by_rows,
+                               &lit_in_middles, &coarse_errors})
         bytes += values->size() * sizeof(double);
     for (const ExchangeAreas& one : areas) bytes += one.memory();
     bytes += directions.size() * sizeof(glm::vec3);
@@ -68,21 +70,17 @@ void KeptLight::finish(std::shared_ptr<const Enclosure> of, const Forest& leaves
     gathers.settle();
 }
 
-std::vector<double> gathered_from(const CoarseSolution& coarse,
-                                  const std::vector<double>& incident_direct,
-                                  const std::vector<double>& incident_lit) {
+GatheredFrom gathered_from(const CoarseSolution& coarse, const std::vector<double>& incident_direct,
+                           const std::vector<double>& incident_lit) {
     const Elements& e = coarse.elements();
-    std::vector<double> sent, by_rows;
+    GatheredFrom result{{}, incident_lit, {}};
     for (std::size_t i = 0; i < e.size(); ++i)
         for (std::size_t b = 0; b < e.bands; ++b) {
             const std::size_t k = i * e.bands + b;
-            sent.push_back(coarse.reflected(i, b));
-            if (e.is_patch(i)) sent.back() -= e.scatter[k] * incident_direct[k];
-            by_rows.push_back(coarse.by_rows(i, b));
+            result.sent.push_back(coarse.reflected(i, b));
+            if (e.is_patch(i)) result.sent.back() -= e.scatter[k] * incident_direct[k];
+            result.by_rows.push_back(coarse.by_rows(i, b));
         }
-    std::vector<double> result = std::move(sent);
-    result.insert(result.end(), incident_lit.begin(), incident_lit.end());
-    result.insert(result.end(), by_rows.begin(), by_rows.end());
     return result;
 }
 
@@ -116,20 +114,12 @@ bool fits(const KeptLight& kept, const Enclosure& enclosure) {
     return true;
 }
 
-std::vector<mesh::Body> bodies_of(const Enclosure& before, const Enclosure& now) {
-    std::vector<mesh::Body> bodies = before.mesh.bodies;
-    bodies.insert(bodies.end(), now.mesh.bodies.begin(), now.mesh.bodies.end());
-    return bodies;
-}
-
 std::vector<double> moved_incident_lit(const KeptLight& before, const Enclosure& enclosure,
                                        const Forest& forest, const Elements& elements,
                                        const LitPatches& lit) {
     const auto bodies = bodies_of(*before.enclosure, enclosure);
-    const auto means =
-        std::span(before.gathered_from)
-            .subspan(elements.size() * elements.bands, elements.size() * elements.bands);
-    return incident_lit(enclosure, forest, elements, lit, {means, before.lit_in_middles, bodies});
+    return incident_lit(enclosure, forest, elements, lit,
+                        {before.gathered_from.by_lit, before.lit_in_middles, bodies});
 }
 
 GatherChange::GatherChange(const KeptLight& before, const Now& now, double error)
@@ -142,10 +132,7 @@ GatherChange::GatherChange(const KeptLight& before, const Now& now, double error
     for (auto* functions : {&of_sources_, &of_lit_, &far_}) functions->resize(n * bands_);
     std::size_t made = 0;
     std::vector<std::size_t> distinct;  // of the bands, as CoarseSolution has them
-    const auto change_in = [&](std::size_t part, std::size_t k) {
-        return now.gathered_from[part * n * bands_ + k] -
-               before.gathered_from[part * n * bands_ + k];
-    };
+    const GatheredFrom &is = now.gathered_from, &was = before.gathered_from;
     std::vector<double> sent(n), lit(n), all(n);
     for (std::size_t b = 0; b < bands_; ++b) {
         const std::size_t same = first_of_extinction(now.enclosure, b);
@@ -153,9 +140,9 @@ GatherChange::GatherChange(const KeptLight& before, const Now& now, double error
         const ExchangeAreas& rows = before.areas[distinct[b]];
         for (std::size_t i = 0; i < n; ++i) {
             const std::size_t k = i * bands_ + b;
-            sent[i] = change_in(0, k);
-            lit[i] = change_in(1, k);
-            all[i] = change_in(2, k) + lit[i];  // (66)
+            sent[i] = is.sent[k] - was.sent[k];
+            lit[i] = is.by_lit[k] - was.by_lit[k];
+            all[i] = is.by_rows[k] - was.by_rows[k] + lit[i];  // (66)
         }
         std::vector<double> of_sources = multiply(rows, e, sent);  // (50)
         for (std::size_t i = 0; i < n; ++i)

@@ -11,6 +11,14 @@
 
 namespace tyndall::radiosity {
 
+// What gathers find in the coarse elements, by which changes of light are told
+// ([element * bands + band]) [W/m^2/sr].
+struct GatheredFrom {
+    std::vector<double> sent;     // r, of patches less what they reflect of direct light
+    std::vector<double> by_lit;   // H from what patches reflect of it
+    std::vector<double> by_rows;  // H that rows bring
+};
+
 // Filled by a solve (Passes::keep); the same for all scenes that begin with it (Passes::moved).
 struct KeptLight {
     explicit KeptLight(std::size_t bands) : direct(bands), gathers(2 * bands + 1) {}
@@ -29,9 +37,7 @@ struct KeptLight {
     Elements elements;
     std::vector<ExchangeAreas> areas;   // of each distinct extinction
     std::vector<glm::vec3> directions;  // of their rays (exchange_moved.h)
-    // r of the elements, of patches less what they reflect of direct light; after these H from what
-    // patches reflect of it, and H by rows ([element * bands + band], thrice) [W/m^2/sr].
-    std::vector<double> gathered_from;
+    GatheredFrom gathered_from;
     std::vector<double> lit_in_middles;  // incident_lit.h
     std::vector<double> coarse_errors;   // error_estimate.h
     IndirectRefiner::Ends settled;
@@ -50,14 +56,10 @@ std::string why_nothing_kept(const SolveOptions& options);
 // Whether a solve of this enclosure can begin with it: the same mesh, bodies of the same triangles.
 bool fits(const KeptLight& kept, const Enclosure& enclosure);
 
-// KeptLight::gathered_from of a solution, given H^A of its elements and H from lit patches
-// ([element * bands + band]) [W/m^2/sr].
-std::vector<double> gathered_from(const CoarseSolution& coarse,
-                                  const std::vector<double>& incident_direct,
-                                  const std::vector<double>& incident_lit);
-
-// The bodies of both, those of the first first.
-std::vector<mesh::Body> bodies_of(const Enclosure& before, const Enclosure& now);
+// Of a solution, given H^A of its elements and H from lit patches ([element * bands + band])
+// [W/m^2/sr].
+GatheredFrom gathered_from(const CoarseSolution& coarse, const std::vector<double>& incident_direct,
+                           const std::vector<double>& incident_lit);
 
 // H from lit patches of each element after bodies have moved (incident_lit.h).
 std::vector<double> moved_incident_lit(const KeptLight& before, const Enclosure& enclosure,
@@ -79,10 +81,9 @@ std::vector<double> moved_incident_lit(const KeptLight& before, const Enclosure&
 //   h, what is linear over the element misses about f (h/d)²/8; it may miss a tenth of the goal.
 class GatherChange {
   public:
-    // The scene now, and `gathered_from` as that of KeptLight.
     struct Now {
         const Enclosure& enclosure;
-        std::vector<double> gathered_from;
+        GatheredFrom gathered_from;
     };
     // `error`: the solve's goal. Keeps `before`.
     GatherChange(const KeptLight& before, const Now& now, double error);

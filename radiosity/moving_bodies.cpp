@@ -201,4 +201,10 @@ Enclosure with_bodies(const Enclosure& still, const Scene& scene,
     return e;
 }
 
+std::vector<mesh::Body> bodies_of(const Enclosure& before, const Enclosure& now) {
+    std::vector<mesh::Body> bodies = before.mesh.bodies;
+    bodies.insert(bodies.end(), now.mesh.bodies.begin(), now.mesh.bodies.end());
+    return bodies;
+}
+
 }  // namespace tyndall::radiosity

@@ -34,4 +34,7 @@ std::string why_no_bodies(const Scene& scene, std::span<const std::size_t> surfa
 Enclosure with_bodies(const Enclosure& still, const Scene& scene,
                       std::span<const std::size_t> surfaces);
 
+// The bodies of both, those of the first first.
+std::vector<mesh::Body> bodies_of(const Enclosure& before, const Enclosure& now);
+
 }  // namespace tyndall::radiosity
