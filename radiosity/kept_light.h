@@ -81,6 +81,7 @@ std::vector<double> moved_incident_lit(const KeptLight& before, const Enclosure&
 //   h, what is linear over the element misses about f (h/d)²/8; it may miss a tenth of the goal.
 class GatherChange {
   public:
+    // The scene now.
     struct Now {
         const Enclosure& enclosure;
         GatheredFrom gathered_from;
