@@ -31,7 +31,7 @@ constexpr double detail_factor = 4.0;
 
 // Of the goal: what the linear system may leave where bodies have moved, if solver_tolerance is no
 // more. What is kept of the solution before is no better.
-constexpr double moved_tolerance = 1e-3;
+constexpr double moved_tolerance = 1e-2;
 
 // A mesh that is going to be promoted needs to be this much coarser than the next.
 constexpr double coarser_goal = 4.0;

@@ -260,6 +260,7 @@ bool CoarseSolution::add_band(std::size_t b, const std::vector<double>& incident
                                             .over_relaxation = options_.over_relaxation,
                                             .overshooting = options_.overshooting,
                                             .ambient = options_.ambient,
+                                            .balance = guess_.empty(),
                                             .guess = guess});
     add_to_report(result, solved.report);
     for (std::size_t i = 0; i < n; ++i) {
@@ -287,7 +288,8 @@ std::vector<double> CoarseSolution::carried(const std::vector<double>& departure
                        {.tolerance = 0.01,
                         .iterations = options_.solver_iterations,
                         .overshooting = on_the_fly() && options_.overshooting,
-                        .ambient = on_the_fly()});
+                        .ambient = on_the_fly(),
+                        .balance = false});
         for (std::size_t i = 0; i < n; ++i)
             if (const double c = elements_.capacity[i * bands + b]; c > 0.0)
                 result[i * bands + b] = solved.received[i] / c;

@@ -134,14 +134,16 @@ class IndirectRefiner {
     RefineResult refine_patches(IndirectSources sources, const Importance& importance, double goal,
                                 const RefineLimits& limits, const ProgressCallback& progress);
 
-    // The nodes where a descent has ended, by node.
+    // The nodes where a descent has ended, by node, and patches found linear there.
     struct Ends {
-        std::vector<bool> zones, patches;
+        std::vector<bool> zones, patches, linear_patches;
     };
     // Those of this refinement.
-    Ends settled() const { return {zones_.flags, patches_.flags}; }
+    Ends settled() const { return {zones_.flags, patches_.flags, patches_.linear}; }
     // A descent in the same forest before bodies moved ended there: this one goes on only where the
-    // error has grown, not where it is about what an element may have.
+    // error has grown to twice what an element may have. Light on bodies is new, but bends over
+    // their elements about as it did: what was linear is gathered at corners alone, if these do not
+    // differ by so much that more could be between them.
     void begin_with(const Ends& before) { before_ = &before; }
 
     // The linear function of a leaf: its own, or that of the settled element above it.
@@ -159,10 +161,11 @@ class IndirectRefiner {
   private:
     // By node: where the descent ended, and the error left there.
     struct Settled {
-        std::vector<bool> flags;
+        std::vector<bool> flags, linear;
         std::vector<float> errors;
         void resize(std::size_t nodes) {
             flags.resize(nodes);
+            linear.resize(nodes);
             errors.resize(nodes);
         }
     };
@@ -170,9 +173,14 @@ class IndirectRefiner {
     Settled& settled_of(PatchId) { return patches_; }
     const Settled& settled_of(ZoneId) const { return zones_; }
     const Settled& settled_of(PatchId) const { return patches_; }
-    bool ended_before(ZoneId zone) const { return before_ && is_set(before_->zones, zone.value); }
-    bool ended_before(PatchId patch) const {
-        return before_ && is_set(before_->patches, patch.value);
+    const std::vector<bool>& before_of(ZoneId) const { return before_->zones; }
+    const std::vector<bool>& before_of(PatchId) const { return before_->patches; }
+    // Whether the descent before ended at the node, or above it.
+    template <class Node>
+    bool ended_before(Node node) const {
+        while (before_ && node.valid() && !is_set(before_of(node), node.value))
+            node = mesh_.forest()[node].parent;
+        return before_ && node.valid();
     }
     static bool is_set(const std::vector<bool>& flags, std::size_t k) {
         return k < flags.size() && flags[k];
@@ -197,8 +205,18 @@ class IndirectRefiner {
     double scatter(PatchId patch) const;
     void bisect(ZoneId zone, std::array<int, 2> edge) { mesh_.bisect(zone, edge); }
     void bisect(PatchId patch, std::array<int, 2>) { mesh_.bisect(patch); }
+    // At corners and middles of the elements; where corners will do, at these alone. Returns rays.
+    template <class Node, class Share>
+    std::size_t gather(const std::vector<Node>& frontier, const IndirectSources& sources,
+                       const Share& share, double threshold);
     template <class Node>
-    void collect(const std::vector<Node>& frontier, std::vector<SampleId>& ids);
+    void add_middles(Node node, std::vector<SampleId>& ids);
+    // On a body that has moved.
+    bool was_linear(ZoneId) const { return false; }
+    bool was_linear(PatchId patch) const;
+    // The error at most, if light bends by no more than its corners differ.
+    template <class Node>
+    double error_by_corners(Node node);
     // Error beyond the noise, and the edge where it is largest.
     template <class Node>
     std::pair<double, std::array<int, 2>> measure(Node node);

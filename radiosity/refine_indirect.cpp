@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <ranges>
 
 #include "radiosity/open_places.h"
 #include "radiosity/quadratic.h"
@@ -25,7 +27,10 @@ constexpr double shown_share = 0.02;
 const double departure_noise = std::sqrt(1.5);
 
 // Of a squared error: what it has grown by where a descent that ended goes on.
-constexpr double grown = 2.0;
+constexpr double grown = 4.0;
+
+// Of the share that an element may have: one with less is linear.
+constexpr double linear_share = 0.03;
 
 // Multiple scattering is smooth: the descent starts this many levels above the solved zones.
 constexpr int levels_above = 1;
@@ -51,14 +56,56 @@ IndirectRefiner::IndirectRefiner(const Enclosure& enclosure, ElementMesh& mesh,
       seed_(seed) {}
 
 template <class Node>
-void IndirectRefiner::collect(const std::vector<Node>& frontier, std::vector<SampleId>& ids) {
+void IndirectRefiner::add_middles(Node node, std::vector<SampleId>& ids) {
+    const int count = static_cast<int>(mesh_.corners(node).size());
+    for (int i = 0; i < count; ++i)
+        for (int j = i + 1; j < count; ++j) ids.push_back(mesh_.middle(node, i, j));
+}
+
+bool IndirectRefiner::was_linear(PatchId patch) const {
+    const FacetId facet(mesh_.forest().base_facet_side(patch) / 2);
+    return before_ && is_set(before_->linear_patches, patch.value) &&
+           mesh::on_body(enclosure_.mesh, facet);
+}
+
+template <class Node>
+double IndirectRefiner::error_by_corners(Node node) {
+    double error = 0.0;
+    for (std::size_t b = 0; b < enclosure_.bands; ++b) {
+        double least = std::numeric_limits<double>::infinity(), most = 0.0;
+        for (const SampleId id : mesh_.corners(node)) {
+            least = std::min(least, mesh_.samples().indirect(id, b));
+            most = std::max(most, mesh_.samples().indirect(id, b));
+        }
+        error += 0.25 * remaining * (most - least);
+    }
+    return error / static_cast<double>(enclosure_.bands);
+}
+
+template <class Node, class Share>
+std::size_t IndirectRefiner::gather(const std::vector<Node>& frontier,
+                                    const IndirectSources& sources, const Share& share,
+                                    double threshold) {
+    GatherScene scene(enclosure_, mesh_.forest(), sources.fields, sources.detail);
+    scene.set_in_mirrors(sources.in_mirrors);
+    const auto gather_at = [&](const std::vector<SampleId>& ids) {
+        return mesh_.samples().gather_at(ids, scene, sources.lit, on_surfaces_, in_zones_, seed_);
+    };
+    std::vector<SampleId> ids;
+    std::vector<Node> linear;
     for (const Node node : frontier) {
         const auto corners = mesh_.corners(node);
         ids.insert(ids.end(), corners.begin(), corners.end());
-        const int count = static_cast<int>(corners.size());
-        for (int i = 0; i < count; ++i)
-            for (int j = i + 1; j < count; ++j) ids.push_back(mesh_.middle(node, i, j));
+        if (was_linear(node))
+            linear.push_back(node);
+        else
+            add_middles(node, ids);
     }
+    const std::size_t rays = gather_at(ids);
+    ids.clear();
+    for (const Node node : linear)
+        if (share(node, error_by_corners(node)) > threshold) add_middles(node, ids);
+    return rays + gather_at(ids);
 }
 
 template <class Node>
@@ -73,13 +120,14 @@ std::pair<double, std::array<int, 2>> IndirectRefiner::measure(Node node) {
     // One sample's half difference may be small by chance; that of all the element's samples is
     // not.
     std::vector<double> noise(enclosure_.bands, 0.0);
+    const auto gathered = [&](SampleId id) { return samples.gathered(id); };
+    const auto number = static_cast<double>(std::ranges::count_if(all, gathered));
     for (std::size_t b = 0; b < noise.size(); ++b) {
-        for (const SampleId id : all) {
+        for (const SampleId id : all | std::views::filter(gathered)) {
             const double spread = samples.half_difference(id, b);
             noise[b] += spread * spread;
         }
-        noise[b] =
-            deviations * departure_noise * std::sqrt(noise[b] / static_cast<double>(all.size()));
+        noise[b] = deviations * departure_noise * std::sqrt(noise[b] / number);
     }
 
     double worst = 0.0, square = 0.0;
@@ -88,6 +136,7 @@ std::pair<double, std::array<int, 2>> IndirectRefiner::measure(Node node) {
     for (int i = 0; i < count; ++i)
         for (int j = i + 1; j < count; ++j) {
             const SampleId middle = all[next++];
+            if (!gathered(middle)) continue;
             double error = 0.0;
             for (std::size_t b = 0; b < enclosure_.bands; ++b) {
                 const double departure =
@@ -125,13 +174,13 @@ RefineResult IndirectRefiner::refine(std::vector<Node> frontier, IndirectSources
     Settled& settled = settled_of(Node());
     std::vector<Node> next, shown;
     double pieces = static_cast<double>(frontier.size());
+    const auto share_of = [&](Node node, double error) {
+        const double x = scatter(node) * error;
+        return open_share(enclosure_, forest, node, 0) * importance.of(node) * x * x;
+    };
     for (std::size_t round = 0; !frontier.empty(); ++round) {
-        std::vector<SampleId> ids;
-        collect(frontier, ids);
-        GatherScene scene(enclosure_, forest, sources.fields, sources.detail);
-        scene.set_in_mirrors(sources.in_mirrors);
-        result.rays +=
-            mesh_.samples().gather_at(ids, scene, sources.lit, on_surfaces_, in_zones_, seed_);
+        const double threshold = goal / pieces;
+        result.rays += gather(frontier, sources, share_of, threshold);
         settled.resize(std::max(forest.zone_count(), forest.patch_count()));
         result.stopped =
             progress && !progress({"indirect light", 1.0 - double(frontier.size()) / pieces,
@@ -140,13 +189,10 @@ RefineResult IndirectRefiner::refine(std::vector<Node> frontier, IndirectSources
             limits.grow && (!room_for_more(limits) || mesh_.memory() > limits.max_memory ||
                             round == limits.max_rounds);
         const bool descend = !result.stopped && !result.limited;
-        const double threshold = goal / pieces;
         next.clear();
         for (const Node node : frontier) {
             const auto [error, edge] = measure(node);
-            const double x = scatter(node) * error;
-            const double share =
-                open_share(enclosure_, forest, node, 0) * importance.of(node) * x * x;
+            const double share = share_of(node, error);
             const double allowed = (ended_before(node) ? grown : 1.0) * threshold;
             if (descend && share > allowed && forest[node].longest_edge > limits.smallest_edge &&
                 (!forest.is_leaf(node) || room_for_more(limits))) {
@@ -158,6 +204,7 @@ RefineResult IndirectRefiner::refine(std::vector<Node> frontier, IndirectSources
             }
             settled.flags[node.value] = true;
             settled.errors[node.value] = static_cast<float>(error);
+            settled.linear[node.value] = share <= linear_share * threshold;
             result.squared_error += share;
             if (descend && limits.grow && share > shown_share * remaining * remaining * threshold)
                 shown.push_back(node);
@@ -209,13 +256,18 @@ template <class Node>
 auto IndirectRefiner::quadratic(Node node, std::size_t band, SampleValue value) {
     const auto samples = mesh_.corners(node);
     constexpr std::size_t count = std::tuple_size_v<decltype(samples)>;
+    const auto value_at = [&](SampleId id) { return (mesh_.samples().*value)(id, band); };
     Quadratic<count> q;
     std::size_t edge = 0;
     for (std::size_t i = 0; i < count; ++i) {
         q.points[i] = mesh_.forest().point(mesh_.forest()[node].corners[i]);
-        q.at_corners[i] = (mesh_.samples().*value)(samples[i], band);
-        for (std::size_t j = i + 1; j < count; ++j)
-            q.at_middles[edge++] = (mesh_.samples().*value)(mesh_.middle(node, i, j), band);
+        q.at_corners[i] = value_at(samples[i]);
+        for (std::size_t j = i + 1; j < count; ++j) {
+            const SampleId middle = mesh_.middle(node, i, j);
+            q.at_middles[edge++] = mesh_.samples().gathered(middle)
+                                       ? value_at(middle)
+                                       : 0.5 * (value_at(samples[i]) + value_at(samples[j]));
+        }
     }
     return q;
 }

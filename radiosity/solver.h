@@ -42,6 +42,7 @@ struct SolverOptions {
     // shoot before the largest is looked for again; 1: that one alone [-].
     double shooters = 0.7;
     ProgressCallback progress{};  // after every step of the history
+    bool balance = true;          // told by the history, for which it takes a pass over the entries
     // x to begin with, one an element; empty: 0. GMRES alone uses it.
     std::span<const double> guess{};
 };

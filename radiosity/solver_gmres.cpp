@@ -26,6 +26,7 @@ class Arnoldi {
         : problem_(problem),
           length_(first.norm()),
           v_(first.size(), most_steps + 1),
+          received_(first.size(), most_steps),
           h_(Matrix::Zero(most_steps + 1, most_steps)) {
         v_.col(0) = first / length_;
     }
@@ -33,8 +34,12 @@ class Arnoldi {
     // One pass. False if the space ends here.
     bool extend() {
         const Vector last = v_.col(steps_);
-        const auto reflected = reflect(problem_, values_of(last));
-        Vector w = last - Eigen::Map<const Vector>(reflected.data(), last.size());
+        const auto received = multiply(problem_.areas, problem_.elements, values_of(last));
+        received_.col(steps_) = Eigen::Map<const Vector>(received.data(), last.size());
+        Vector w = last;
+        for (Eigen::Index i = 0; i < w.size(); ++i)
+            w[i] -=
+                problem_.scatter_over_capacity(static_cast<std::size_t>(i)) * received_(i, steps_);
         const double before = w.norm();
         // Twice: once leaves rounding behind where w nearly lies in the space.
         for (int turn = 0; turn < 2; ++turn)
@@ -53,7 +58,7 @@ class Arnoldi {
 
     // What leaves least: y of x = x0 + V y, and what it leaves.
     struct Best {
-        Vector change, left;
+        Vector y, left;
     };
     Best best() const {
         const Eigen::Index k = steps_;
@@ -61,15 +66,18 @@ class Arnoldi {
         right[0] = length_;
         const auto h = h_.topLeftCorner(k + 1, k);
         const Vector y = h.colPivHouseholderQr().solve(right);
-        return {v_.leftCols(k) * y, v_.leftCols(k + 1) * (right - h * y)};
+        return {y, v_.leftCols(k + 1) * (right - h * y)};
     }
+    Vector change(const Vector& y) const { return v_.leftCols(y.size()) * y; }
+    // S V y, of the passes made: no other is needed to know what x receives.
+    Vector received(const Vector& y) const { return received_.leftCols(y.size()) * y; }
 
     bool full() const { return steps_ == most_steps; }
 
   private:
     const LinearProblem& problem_;
     double length_;
-    Matrix v_, h_;
+    Matrix v_, received_, h_;
     Eigen::Index steps_ = 0;
 };
 
@@ -80,15 +88,16 @@ SolverResult solve_gmres(const LinearProblem& problem, const SolverOptions& opti
     SolverHistory history(problem, options);
     const auto n = static_cast<Eigen::Index>(problem.elements.size());
     Vector x = Vector::Zero(n), left = Eigen::Map<const Vector>(problem.source.data(), n);
-    std::vector<double> received;  // S x
-    const auto look_at = [&] {
-        received = multiply(problem.areas, problem.elements, values_of(x));
-        const auto rest = left_of(problem, values_of(x), received);
+    Vector received = Vector::Zero(n);  // S x
+    const auto find_left = [&] {
+        const auto rest = left_of(problem, values_of(x), values_of(received));
         left = Eigen::Map<const Vector>(rest.data(), n);
     };
     if (!options.guess.empty()) {
         x = Eigen::Map<const Vector>(options.guess.data(), n);
-        look_at();
+        const auto first = multiply(problem.areas, problem.elements, options.guess);
+        received = Eigen::Map<const Vector>(first.data(), n);
+        find_left();
     }
     history.note(0, values_of(x), values_of(left));
     const double goal = 0.5 * options.tolerance * history.source_norm();
@@ -97,20 +106,22 @@ SolverResult solve_gmres(const LinearProblem& problem, const SolverOptions& opti
     while (left.norm() > goal && iterations < options.iterations && !stopped) {
         const double before = left.norm();
         Arnoldi arnoldi(problem, left);
-        Vector change;
+        Vector y;
         for (bool more = true; more && iterations < options.iterations && !stopped;) {
             more = arnoldi.extend() && !arnoldi.full();
             auto best = arnoldi.best();
-            change = std::move(best.change);
-            stopped = !history.note(++iterations, values_of(x + change), values_of(best.left));
+            y = std::move(best.y);
+            stopped =
+                !history.note(++iterations, values_of(x + arnoldi.change(y)), values_of(best.left));
             more = more && best.left.norm() > goal;
         }
-        x += change;
-        look_at();
+        x += arnoldi.change(y);
+        received += arnoldi.received(y);
+        find_left();
         if (!(left.norm() < (1.0 - 1e-3) * before)) break;  // nothing more is to be gained
     }
-    SolverResult result =
-        finish(problem, options, {x.begin(), x.end()}, iterations, history, std::move(received));
+    SolverResult result = finish(problem, options, {x.begin(), x.end()}, iterations, history,
+                                 {received.begin(), received.end()});
     result.stopped = stopped;
     return result;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "radiosity/column_shares.h"
@@ -39,7 +40,7 @@ SolverHistory::SolverHistory(const LinearProblem& problem, const SolverOptions& 
     for (std::size_t i = 0; i < problem.source.size(); ++i)
         brought_ += problem.capacity(i) * problem.source[i];
     outside_area_ = outside_area(problem);
-    if (!problem.rows)
+    if (!problem.rows && options.balance)
         ends_ = ends_of_light(problem, ColumnShares(problem.areas, problem.elements));
     began_ = cpu_seconds();
 }
@@ -52,8 +53,12 @@ SolverHistory::Uncounted::~Uncounted() {
     if (--history_.pauses_ == 0) history_.uncounted_ += cpu_seconds() - history_.paused_at_;
 }
 
+double SolverHistory::ended(std::size_t element, double radiance) const {
+    return ends_.empty() ? std::numeric_limits<double>::quiet_NaN() : ends_[element] * radiance;
+}
+
 double SolverHistory::ended_of(std::span<const double> x) const {
-    double ended = 0.0;
+    double ended = ends_.empty() ? std::numeric_limits<double>::quiet_NaN() : 0.0;
     for (std::size_t i = 0; i < ends_.size(); ++i) ended += ends_[i] * x[i];
     return ended;
 }

@@ -17,12 +17,13 @@ struct SolverStep {
     // Passes over all entries of the rows, so that solvers compare: two a step of BiCGSTAB, one
     // shot of every element, in the mean, of progressive refinement.
     std::size_t iterations = 0;
-    std::size_t shots = 0;        // of progressive refinement
-    double cpu_seconds = 0.0;     // of the solver alone, without what this history takes [s]
-    double residual = 1.0;        // |ρ| / |s| [-]
-    double unshot_power = 0.0;    // π Σ c |ρ| [W]
-    double energy_balance = 1.0;  // (brought in − absorbed − escaped) / brought in, of x [-]
-    double ambient = 0.0;         // ambient_estimate of ρ [W/m^2/sr]
+    std::size_t shots = 0;      // of progressive refinement
+    double cpu_seconds = 0.0;   // of the solver alone, without what this history takes [s]
+    double residual = 1.0;      // |ρ| / |s| [-]
+    double unshot_power = 0.0;  // π Σ c |ρ| [W]
+    // (brought in − absorbed − escaped) / brought in, of x; NaN: not asked for [-].
+    double energy_balance = 1.0;
+    double ambient = 0.0;  // ambient_estimate of ρ [W/m^2/sr]
 };
 
 // Incident radiance that what is unshot will make in the mean, when it has been shot, reflected and
@@ -41,12 +42,14 @@ class SolverHistory {
   public:
     static constexpr std::size_t most = 200;
 
-    // Cost: one pass over the entries, for absorption; none where rows are made on the fly.
+    // Cost: one pass over the entries, for absorption; none where rows are made on the fly, or no
+    // balance is asked for.
     SolverHistory(const LinearProblem& problem, const SolverOptions& options);
 
     double source_norm() const { return source_norm_; }  // |s|
-    // ends_of_light (column_shares.h); empty where rows are made on the fly [m^2].
-    std::span<const double> ends() const { return ends_; }
+    // Of an element's radiance: power / π that ends in absorption and outside; NaN where that pass
+    // is not taken [W/sr].
+    double ended(std::size_t element, double radiance) const;
 
     // After `iterations` passes, x with ρ = `left`. Returns false if the caller's progress asks for
     // a stop. Cost: O(elements); its time is not counted.
@@ -83,8 +86,9 @@ class SolverHistory {
 
     const LinearProblem& problem_;
     const SolverOptions& options_;
-    std::vector<double> ends_;  // t: of x_j, what ends in absorption and outside is Σ_j t_j x_j
-                                // [m^2]
+    // t: of x_j, what ends in absorption and outside is Σ_j t_j x_j (column_shares.h); empty where
+    // that pass is not taken [m^2].
+    std::vector<double> ends_;
     double source_norm_ = 0.0, brought_ = 0.0, outside_area_ = 0.0;
     double began_ = 0.0, uncounted_ = 0.0, paused_at_ = 0.0;  // CPU time [s]
     std::size_t pauses_ = 0;                                  // scopes of Uncounted

@@ -136,7 +136,7 @@ class Shooting {
             const double power = to_shoot(i) * over_itself(kept_->self[i]);
             unshot_[i] -= power;
             kept_->add(i, power);
-            ended_ += history_.ends()[i] * power;
+            ended_ += history_.ended(i, power);
         }
         send(i);
         end_shot();
