@@ -29,9 +29,8 @@ constexpr double direct_share = 0.78, zone_share = 0.3;
 // rays: measured, 1 and 4 give the same picture, 4 in half the time.
 constexpr double detail_factor = 4.0;
 
-// Of the goal: what the linear system may leave where bodies have moved, if solver_tolerance is no
-// more. What is kept of the solution before is no better.
-constexpr double moved_tolerance = 1e-2;
+// What the linear system may leave where bodies have moved, of the goal and at most.
+constexpr double moved_tolerance = 1e-2, most_moved_tolerance = 2e-4;
 
 // A mesh that is going to be promoted needs to be this much coarser than the next.
 constexpr double coarser_goal = 4.0;
@@ -64,7 +63,8 @@ class Loop {
         if (kept_.moved) {
             light_.take_from(kept_.moved->direct, kept_.moved->enclosure->mesh.bodies);
             options_.solver_tolerance =
-                std::max(options_.solver_tolerance, moved_tolerance * options_.error);
+                std::max(options_.solver_tolerance,
+                         std::min(moved_tolerance * options_.error, most_moved_tolerance));
         }
         begin_pass();
     }
