@@ -26,6 +26,7 @@ Json json_of(std::size_t frame, const FrameRecord& record) {
             {"done", record.done},
             {"cpu_seconds", record.cpu_seconds},
             {"picture_cpu_seconds", record.picture_cpu_seconds},
+            {"rows_kept", record.rows_kept},
             {"rays_share", record.rays_share ? Json(*record.rays_share) : Json()},
             {"estimated_error", record.estimated_error},
             {"patches", record.patches},
@@ -39,6 +40,7 @@ FrameRecord frame_record_of(const Json& json) {
                        std::nullopt,           json.at("estimated_error"),
                        json.at("patches"),     json.at("zones"),
                        json.at("warnings")};
+    record.rows_kept = json.value("rows_kept", false);
     if (json.at("rays_share").is_number()) record.rays_share = json.at("rays_share").get<double>();
     return record;
 }

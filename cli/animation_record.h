@@ -23,6 +23,7 @@ struct FrameRecord {
     double estimated_error = 0.0;
     std::size_t patches = 0, zones = 0;
     std::vector<std::string> warnings;
+    bool rows_kept = false;  // of solved frames: exchange areas are those of a frame before
 };
 
 // Solutions that frames are sums of, or the one that frames with moved bodies begin with.

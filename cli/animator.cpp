@@ -19,6 +19,12 @@ constexpr const char* no_view =
     "the camera moves while the light stays: elements are refined for the solution as a whole "
     "(solve.refinement \"adaptive\"), not for one frame's view.";
 
+// Of the first rows, that they were another frame's.
+bool rows_kept(const radiosity::Solution& solution) {
+    const auto& passes = solution.report.passes;
+    return !passes.empty() && passes.front().rays == 0;
+}
+
 std::size_t rays_of(const radiosity::Solution& solution) {
     std::size_t rays = 0;
     for (const auto& pass : solution.report.passes) rays += pass.rays;
@@ -44,6 +50,7 @@ std::optional<radiosity::View> Animator::view(std::size_t frame) const {
 void Animator::shoot(std::size_t index) {
     const Segment& segment = plan_.segments[index];
     const double began = cpu_seconds();
+    *rows_ = {};  // others are going to be needed, and memory
     const auto scenes = scenes_of(frames_, segment);
     SceneFile largest = frames_[segment.first];
     largest.scene = radiosity::group_sources(scenes).largest;
@@ -62,10 +69,13 @@ void Animator::superpose(std::size_t frame) {
     solution_ = radiosity::superposed(shots_, frame - segment.first, frames_[frame].scene);
 }
 
-void Animator::solve(std::size_t frame) {
+void Animator::solve(std::size_t frame, FrameRecord& record) {
     const SceneFile& file = frames_[frame];
+    radiosity::Passes passes;
+    passes.rows = rows_;
     solution_ = radiosity::solve_adaptively(mesh_scene(file, progress_), file.solve, view(frame),
-                                            progress_.callback());
+                                            progress_.callback(), passes);
+    record.rows_kept = rows_kept(solution_);
 }
 
 // All frames are asked, so that a part of them is solved as all would be.
@@ -95,6 +105,7 @@ void Animator::begin_moving(std::size_t index) {
     const Segment& segment = plan_.segments[index];
     const SceneFile& file = frames_[segment.first];
     const double began = cpu_seconds();
+    *rows_ = {};
     auto kept = std::make_shared<radiosity::KeptLight>(file.scene.bands);
     radiosity::Passes passes;
     passes.keep = kept;
@@ -145,7 +156,7 @@ const radiosity::Solution& Animator::light(std::size_t frame, FrameRecord& recor
         else if (moves)
             move(frame, record);
         else
-            solve(frame);
+            solve(frame, record);
     }
     record.done = same                               ? "kept"
                   : plan_.segments[index].superposed ? "superposed"

@@ -24,7 +24,7 @@ class Animator {
   private:
     // A solution of a frame's scene, by what of this job's is still good.
     const radiosity::Solution& light(std::size_t frame, FrameRecord& record);
-    void solve(std::size_t frame);
+    void solve(std::size_t frame, FrameRecord& record);
     void superpose(std::size_t frame);
     void shoot(std::size_t segment);
     // A segment's frames with moved bodies: whether they can be had from one solution; that
@@ -53,6 +53,8 @@ class Animator {
         radiosity::Solution first;
         std::size_t rays = 0;  // of its solve
     } moving_;
+    // Of the frame solved last, for frames that differ in lights, albedo or reflectance alone.
+    std::shared_ptr<radiosity::SharedRows> rows_ = std::make_shared<radiosity::SharedRows>();
     std::optional<std::size_t> solved_;  // the frame whose solution there is
     radiosity::Solution solution_;
 };

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "radiosity/balance.h"
+#include "radiosity/collect_solution.h"
 #include "radiosity/error_estimate.h"
 #include "radiosity/incident_lit.h"
 #include "radiosity/leaf_light.h"
@@ -59,6 +60,7 @@ class Loop {
           direct_(*enclosure_, mesh_, light_, boundaries_ ? &*boundaries_ : nullptr),
           leaf_light_(*enclosure_, mesh_, direct_, options.radiance) {
         if (options_.refinement < Refinement::view) view_.reset();
+        if (options_.shots == Shots::rows && !kept_.moved) sharing_ = kept_.rows;
         if (kept_.keep) light_.keep_in(&kept_.keep->direct);
         if (kept_.moved) {
             light_.take_from(kept_.moved->direct, kept_.moved->enclosure->mesh.bodies);
@@ -92,12 +94,13 @@ class Loop {
         if (kept_.moved)
             rows.emplace(KeptRows{
                 {*kept_.moved->enclosure, kept_.moved->coarse_forest, kept_.moved->elements},
-                kept_.moved->areas,
+                *kept_.moved->rows,
                 kept_.moved->directions,
                 kept_.moved->gathered_from.sent});
         if (kept_.keep) kept_.keep->coarse_forest = mesh_.forest();
         CoarseSolution coarse(*enclosure_, mesh_.forest(), std::move(elements), options_, progress_,
-                              rows ? &*rows : nullptr);
+                              rows ? &*rows : nullptr, shared_rows());
+        leave(coarse.rows());
         rays_ += coarse.rays();
         begin(coarse);
 
@@ -145,6 +148,14 @@ class Loop {
         if (saving(last)) kept_.save(solution);
         if (!last && kept_.watch) kept_.watch("indirect light", [&] { return solution; });
         return solution;
+    }
+
+    // Of the elements that there are before any is bisected: those of the first coarse solution.
+    std::shared_ptr<const Rows> shared_rows() {
+        return sharing_ ? sharing_->of(enclosure_, options_) : nullptr;
+    }
+    void leave(const std::shared_ptr<const Rows>& rows) {
+        if (const auto sharing = std::exchange(sharing_, {})) sharing->leave(rows);
     }
 
     // A first solution; of bodies that have moved the one before is near enough to weigh errors by.
@@ -226,7 +237,10 @@ class Loop {
     void solve(CoarseSolution& coarse, const LitPatches* lit = nullptr);
     void rate(const CoarseSolution& coarse);
     template <class Field>
-    Solution collect(const CoarseSolution& coarse, Field&& indirect);
+    Solution collect(const CoarseSolution& coarse, Field&& indirect) {
+        return collect_solution({enclosure_, options_, mesh_, direct_, leaf_light_}, coarse,
+                                incident_direct_, indirect);
+    }
     // With indirect light as the coarse solution knows it.
     Solution collect(const CoarseSolution& coarse) {
         const Fields indirect = leaf_light_.indirect(coarse);
@@ -261,8 +275,9 @@ class Loop {
     std::shared_ptr<const Enclosure> enclosure_;
     SolveOptions options_;
     Passes kept_;
-    std::optional<View> camera_;  // whose picture's error is estimated
-    std::optional<View> view_;    // for which is refined
+    std::shared_ptr<SharedRows> sharing_;  // Passes::rows, until the first rows are made
+    std::optional<View> camera_;           // whose picture's error is estimated
+    std::optional<View> view_;             // for which is refined
     ProgressCallback progress_;
     DirectLight light_;
     ElementMesh mesh_;
@@ -300,7 +315,9 @@ std::function<IndicatedErrors()> Loop::other_indicators(const CoarseSolution& co
 // thickness costs. Whether any has been bisected.
 bool Loop::refine_thick_zones(const Elements& elements) {
     if (!any_thick(*enclosure_, mesh_, options_.optical_thickness)) return false;
-    CoarseSolution coarse(*enclosure_, mesh_.forest(), elements, options_, progress_);
+    CoarseSolution coarse(*enclosure_, mesh_.forest(), elements, options_, progress_, nullptr,
+                          shared_rows());
+    leave(coarse.rows());
     rays_ += coarse.rays();
     direct_.update();
     solve(coarse);
@@ -344,45 +361,6 @@ void Loop::rate(const CoarseSolution& coarse) {
     scene.set_in_mirrors(leaf_light_.in_mirrors(coarse, false));
     scale_.picture = mean_radiance(scene, *enclosure_, *view_);
     if (!(scale_.picture > 0.0)) view_.reset();  // it sees nothing
-}
-
-// The leaves' fields, given indirect light. Their errors are those of direct light alone.
-template <class Field>
-Solution Loop::collect(const CoarseSolution& coarse, Field&& indirect) {
-    const Forest& forest = mesh_.forest();
-    const std::size_t bands = enclosure_->bands;
-    Solution solution;
-    solution.enclosure = enclosure_;
-    solution.direct_light = options_.direct_light;
-    solution.direct.resize(forest, bands);
-    solution.indirect.resize(forest, bands);
-    solution.zone_error.resize(forest.zone_count());
-    solution.patch_error.resize(forest.patch_count());
-    const auto fill = [&](auto node, float& error) {
-        for (std::size_t b = 0; b < bands; ++b) {
-            // Zones are seen as integrals along rays, where the mean counts; patches are seen as
-            // they are, where a jump from one to the next would show.
-            if constexpr (std::is_same_v<decltype(node), ZoneId>)
-                solution.direct.at(node, b) = leaf_light_.direct_with_mean(node, b);
-            else
-                solution.direct.at(node, b) = leaf_light_.direct(node, b);
-            solution.indirect.at(node, b) = indirect(node, b);
-        }
-        error = static_cast<float>(direct_.error(node));
-    };
-    for (const ZoneId z : mesh_.zones())
-        if (forest.is_leaf(z)) fill(z, solution.zone_error[z.value]);
-    for (const PatchId p : mesh_.patches())
-        if (forest.is_leaf(p)) fill(p, solution.patch_error[p.value]);
-    solution.patch_direct_error = solution.patch_error;
-    if (options_.radiance == Radiance::constant) {
-        flatten(forest, solution.direct);
-        flatten(forest, solution.indirect);
-    }
-    if (!coarse.settled().empty()) solution.settled = leaf_light_.settled(coarse);
-    solution.forest = forest;
-    solution.coarse = coarse.values(incident_direct_);
-    return solution;
 }
 
 }  // namespace

@@ -36,6 +36,10 @@ struct Passes {
     // What was kept before bodies have moved: the solve begins with it, its mesh and all, and makes
     // anew what has changed. fits(*moved, enclosure) must hold, and options be the same.
     std::shared_ptr<const KeptLight> moved{};
+    // Rows of the elements that a solve begins with: taken from here where they are those that it
+    // would make (shared_rows.h), which scenes have whose lights, albedo or reflectance alone
+    // differ; else left here for the next. The same bits with and without.
+    std::shared_ptr<SharedRows> rows{};
 };
 
 // Purpose: solve the enclosure to the error goal, as the literature has it (docs/theory.md):

@@ -31,7 +31,7 @@ CoarseSolution::CoarseSolution(const Enclosure& enclosure, const Forest& forest,
 
 CoarseSolution::CoarseSolution(const Enclosure& enclosure, const Forest& forest, Elements elements,
                                const SolveOptions& options, const ProgressCallback& progress,
-                               const KeptRows* kept)
+                               const KeptRows* kept, std::shared_ptr<const Rows> made)
     : enclosure_(enclosure),
       forest_(forest),
       options_(options),
@@ -52,14 +52,24 @@ CoarseSolution::CoarseSolution(const Enclosure& enclosure, const Forest& forest,
         matrix_.push_back(same < band ? matrix_[same] : distinct.size());
         if (same == band) distinct.push_back(band);
     }
+    auto rows = std::make_shared<Rows>();
+    rows_ = made ? std::move(made) : rows;
+    lost_rays_ = rows_->lost_rays;
     if (on_the_fly()) {
-        areas_.resize(distinct.size());
+        rows->areas.resize(distinct.size());
         closure_.resize(distinct.size(), 0.0);
         for (const std::size_t band : distinct) find_outside(band);
-    } else {
-        make_areas(distinct, kept);
+    } else if (rows_ == rows) {
+        make_areas(distinct, kept, *rows);
     }
-    if (enclosure.has_mirrors()) make_in_mirrors(distinct);
+    if (enclosure.has_mirrors() && rows_ == rows) make_in_mirrors(distinct, *rows);
+    rows->lost_rays = lost_rays_;
+    for (const ExchangeAreas& areas : rows_->areas) {
+        if (on_the_fly()) break;  // find_outside
+        auto& outside = outside_.emplace_back();
+        for (std::size_t i = 0; i < elements_.size(); ++i)
+            outside.push_back(radiosity::to_outside(areas, elements_, i));
+    }
 }
 
 double CoarseSolution::to_outside(std::size_t element, std::size_t band) const {
@@ -110,9 +120,10 @@ std::vector<Affine> CoarseSolution::linear_indirect() const {
     std::vector<Affine> result(n * bands);
     for (std::size_t k = 0; k < result.size(); ++k) result[k].constant = solved_.indirect[k];
     if (options_.radiance == Radiance::constant || !elements_.member_starts.empty()) return result;
-    const auto gradients = areas_[0].gradients ? areas_[0].gradients
-                                               : std::make_shared<const ElementGradients>(
-                                                     enclosure_, forest_, elements_);
+    const auto& of_rows = rows_->areas[0].gradients;
+    const auto gradients =
+        of_rows ? of_rows
+                : std::make_shared<const ElementGradients>(enclosure_, forest_, elements_);
     std::vector<double> means(n);
     for (std::size_t b = 0; b < bands; ++b) {
         for (std::size_t i = 0; i < n; ++i) means[i] = indirect(i, b);
@@ -131,9 +142,7 @@ std::vector<Affine> CoarseSolution::linear_indirect() const {
 std::size_t CoarseSolution::memory() const {
     std::size_t bytes = elements_.capacity.size() * 3 * sizeof(double) + at_first_.memory();
     for (const auto& outside : outside_) bytes += outside.size() * sizeof(double);
-    for (const auto& areas : areas_) bytes += areas.memory();
-    for (const auto& areas : in_mirrors_) bytes += areas.memory();
-    return bytes;
+    return bytes + rows_->memory();
 }
 
 double CoarseSolution::mean_square() const {
@@ -157,7 +166,7 @@ double CoarseSolution::split_emission(std::size_t element, std::size_t band) con
 // H of every element by way of mirrors, from what patches send [W/m^2/sr].
 std::vector<double> CoarseSolution::in_mirrors(std::span<const double> sent,
                                                std::size_t band) const {
-    std::vector<double> incident = multiply(in_mirrors_[matrix_[band]], elements_, sent);
+    std::vector<double> incident = multiply(rows_->in_mirrors[matrix_[band]], elements_, sent);
     for (std::size_t i = 0; i < incident.size(); ++i)
         if (const double c = elements_.capacity[i * elements_.bands + band]; c > 0.0)
             incident[i] /= c;
@@ -189,7 +198,7 @@ std::vector<double> CoarseSolution::arrived_apart(std::size_t b,
     const bool apart = !incident_lit.empty();
     const std::size_t bands = elements_.bands, n = elements_.size();
     std::vector<double> arrived(n, 0.0), sent(n, 0.0), mirrored;
-    if (!in_mirrors_.empty() && apart) {
+    if (!rows_->in_mirrors.empty() && apart) {
         for (std::size_t i = 0; i < elements_.patches.size(); ++i)
             sent[i] = elements_.scatter[i * bands + b] * incident_direct[i * bands + b];
         mirrored = in_mirrors(sent, b);
@@ -198,7 +207,7 @@ std::vector<double> CoarseSolution::arrived_apart(std::size_t b,
         const double scale = lit_scale(incident_direct, incident_lit, mirrored, b);
         for (std::size_t i = 0; i < n; ++i) arrived[i] = scale * incident_lit[i * bands + b];
     }
-    if (in_mirrors_.empty()) return arrived;
+    if (rows_->in_mirrors.empty()) return arrived;
     for (std::size_t i = 0; i < n; ++i) sent[i] += split_emission(i, b);
     mirrored = in_mirrors(sent, b);
     for (std::size_t i = 0; i < n; ++i) arrived[i] += mirrored[i];

@@ -5,6 +5,7 @@
 #include "radiosity/exchange_moved.h"
 #include "radiosity/options.h"
 #include "radiosity/settled_emission.h"
+#include "radiosity/shared_rows.h"
 #include "radiosity/solution.h"
 #include "radiosity/solver.h"
 
@@ -15,7 +16,7 @@ struct NamedSolver;
 // Rows of the same elements before bodies have moved, of each distinct extinction.
 struct KeptRows {
     Discretization discretization;
-    const std::vector<ExchangeAreas>& areas;
+    const Rows& rows;
     std::span<const glm::vec3> directions;  // of their rays (ray_directions)
     // What their solution sent out, of patches less what they reflect of direct light, to begin
     // with ([element * bands + band]) [W/m^2/sr].
@@ -28,18 +29,19 @@ class CoarseSolution {
     // of all by one walk where the method can.
     CoarseSolution(const Enclosure& enclosure, const Forest& forest, const SolveOptions& options,
                    const ProgressCallback& progress);
-    // With elements of the caller's, clusters for instance. `kept`: rows that what has moved since
-    // is corrected in (exchange_moved.h), in place of rows made anew.
+    // With elements of the caller's, clusters for instance. In place of rows made anew: those of
+    // `kept`, in which what has moved since is corrected (exchange_moved.h); or `made`, of the same
+    // elements, as they are.
     CoarseSolution(const Enclosure& enclosure, const Forest& forest, Elements elements,
                    const SolveOptions& options, const ProgressCallback& progress,
-                   const KeptRows* kept = nullptr);
+                   const KeptRows* kept = nullptr, std::shared_ptr<const Rows> made = {});
 
     const Elements& elements() const { return elements_; }
     const Forest& forest() const { return forest_; }
     // The rows; none where shots are on the fly.
-    const ExchangeAreas& areas(std::size_t band) const { return areas_[matrix_[band]]; }
-    // Those of each distinct extinction.
-    const std::vector<ExchangeAreas>& all_areas() const { return areas_; }
+    const ExchangeAreas& areas(std::size_t band) const { return rows_->areas[matrix_[band]]; }
+    // Those of each distinct extinction; to be used again as `made`.
+    const std::shared_ptr<const Rows>& rows() const { return rows_; }
     // S_i,out [m^2].
     double to_outside(std::size_t element, std::size_t band) const;
     // max_i |Σ_j S_ij − c_i| / c_i of the rows that are kept, or have been made so far [-].
@@ -104,9 +106,9 @@ class CoarseSolution {
 
     bool on_the_fly() const { return options_.shots == Shots::on_the_fly; }
     ExchangeOptions exchange_options(std::size_t band) const;
-    void make_areas(std::span<const std::size_t> bands, const KeptRows* kept);
+    void make_areas(std::span<const std::size_t> bands, const KeptRows* kept, Rows& rows);
     void make_rows(std::size_t band, std::span<const ElementId> rows, const RowSink& sink) const;
-    void make_in_mirrors(std::span<const std::size_t> bands);
+    void make_in_mirrors(std::span<const std::size_t> bands, Rows& rows);
     void find_outside(std::size_t band);
     SolverResult solve_band(std::size_t band, std::span<const double> source,
                             const NamedSolver& solver, const SolverOptions& options) const;
@@ -129,12 +131,12 @@ class CoarseSolution {
     ProgressCallback progress_;
     Elements elements_;
     SettledEmission settled_;
-    std::vector<ExchangeAreas> areas_;
-    std::vector<ExchangeAreas> in_mirrors_;  // as areas_, but RowLegs::in_mirrors; none without
-    std::vector<std::size_t> matrix_;        // which of areas_ a band uses
-    // Of each of areas_: S_i,out of every element; on the fly nothing if the scene is closed [m^2].
+    std::shared_ptr<const Rows> rows_;
+    std::vector<std::size_t> matrix_;  // which of the rows a band uses
+    // Of each of the rows: S_i,out of every element; on the fly nothing if the scene is closed
+    // [m^2].
     std::vector<std::vector<double>> outside_;
-    mutable std::vector<double> closure_;  // of each of areas_, of rows made so far
+    mutable std::vector<double> closure_;  // of each of the rows, of those made so far on the fly
     Solved solved_;
     std::vector<double> guess_;  // KeptRows::sent; empty: none
     mutable std::size_t rays_ = 0;

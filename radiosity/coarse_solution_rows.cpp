@@ -11,21 +11,23 @@ namespace tyndall::radiosity {
 
 // What reaches patches by way of mirrors, of the same rays: e^A, and what patches reflect of direct
 // light, are seen straight in closed form, but not so.
-void CoarseSolution::make_in_mirrors(std::span<const std::size_t> bands) {
+void CoarseSolution::make_in_mirrors(std::span<const std::size_t> bands, Rows& rows) {
     ExchangeOptions chosen = exchange_options(bands.front());
     chosen.detail = on_the_fly() ? 0.0 : options_.row_detail;
     chosen.legs = RowLegs::in_mirrors;
     chosen.settings.smoothing = Smoothing::none;
     for (const std::size_t band : bands) {
         chosen.band = band;
-        in_mirrors_.push_back(all_rows(exchange_method(options_.exchange).method,
-                                       {enclosure_, forest_, elements_}, chosen));
+        rows.in_mirrors.push_back(all_rows(exchange_method(options_.exchange).method,
+                                           {enclosure_, forest_, elements_}, chosen));
         rays_ += elements_.size() * options_.rays;
     }
 }
 
 // Of bands with extinctions that differ; by one walk for all, where the method can.
-void CoarseSolution::make_areas(std::span<const std::size_t> bands, const KeptRows* kept) {
+void CoarseSolution::make_areas(std::span<const std::size_t> bands, const KeptRows* kept,
+                                Rows& rows) {
+    auto& areas = rows.areas;
     const NamedExchangeMethod& method = exchange_method(options_.exchange);
     const Discretization d{enclosure_, forest_, elements_};
     ExchangeOptions chosen = exchange_options(bands.front());
@@ -36,25 +38,20 @@ void CoarseSolution::make_areas(std::span<const std::size_t> bands, const KeptRo
         std::atomic<std::size_t> walked = 0;
         for (const std::size_t band : bands) {
             chosen.band = band;
-            areas_.push_back(
-                moved_rows(d, {kept->discretization, kept->areas[areas_.size()], kept->directions},
-                           chosen, walked));
+            areas.push_back(moved_rows(
+                d, {kept->discretization, kept->rows.areas[areas.size()], kept->directions}, chosen,
+                walked));
         }
         rays_ += walked;
     } else if (method.of_bands && bands.size() > 1) {
-        areas_ = all_rows(method.of_bands, d, chosen, bands);
+        areas = all_rows(method.of_bands, d, chosen, bands);
         rays_ += elements_.size() * options_.rays;
     } else {
         for (const std::size_t band : bands) {
             chosen.band = band;
-            areas_.push_back(all_rows(method.method, d, chosen));
+            areas.push_back(all_rows(method.method, d, chosen));
             rays_ += elements_.size() * options_.rays;
         }
-    }
-    for (const ExchangeAreas& areas : areas_) {
-        auto& outside = outside_.emplace_back();
-        for (std::size_t i = 0; i < elements_.size(); ++i)
-            outside.push_back(radiosity::to_outside(areas, elements_, i));
     }
 }
 

@@ -118,7 +118,8 @@ class Shooter {
           progress_(progress),
           shots_(shots) {}
 
-    Solution solve(const Scene& scene, const Passes& passes = {}) {
+    Solution solve(const Scene& scene, Passes passes = {}) {
+        passes.rows = rows_;
         ++shots_.solves;
         return solve_adaptively(
             lit_by(scene, enclosure_), options_, view_,
@@ -153,6 +154,8 @@ class Shooter {
     const ProgressCallback& progress_;
     UnitShots& shots_;
     bool stopped_ = false;
+    // Sources differ, the rows do not.
+    std::shared_ptr<SharedRows> rows_ = std::make_shared<SharedRows>();
 };
 
 void add(double weight, const Affine& function, Affine& sum) {

@@ -43,7 +43,7 @@ std::size_t KeptLight::memory() const {
     for (const auto* values : {&gathered_from.sent, &gathered_from.by_lit, &gathered_from.by_rows,
                                &lit_in_middles, &coarse_errors})
         bytes += values->size() * sizeof(double);
-    for (const ExchangeAreas& one : areas) bytes += one.memory();
+    bytes += rows->memory();
     bytes += directions.size() * sizeof(glm::vec3);
     return bytes;
 }
@@ -51,7 +51,7 @@ std::size_t KeptLight::memory() const {
 void KeptLight::take(const CoarseSolution& coarse, const std::vector<double>& incident_direct,
                      const std::vector<double>& incident_lit) {
     elements = coarse.elements();
-    areas = coarse.all_areas();
+    rows = coarse.rows();
     directions = coarse.ray_directions();
     gathered_from = radiosity::gathered_from(coarse, incident_direct, incident_lit);
 }
@@ -137,7 +137,7 @@ GatherChange::GatherChange(const KeptLight& before, const Now& now, double error
     for (std::size_t b = 0; b < bands_; ++b) {
         const std::size_t same = first_of_extinction(now.enclosure, b);
         distinct.push_back(same < b ? distinct[same] : made++);
-        const ExchangeAreas& rows = before.areas[distinct[b]];
+        const ExchangeAreas& rows = before.rows->areas[distinct[b]];
         for (std::size_t i = 0; i < n; ++i) {
             const std::size_t k = i * bands_ + b;
             sent[i] = is.sent[k] - was.sent[k];

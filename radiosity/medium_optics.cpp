@@ -136,7 +136,9 @@ MediumOptics medium_optics(const Medium& medium, const Enclosure& enclosure) {
         const double scattering =
             medium.extinction[b] * medium.albedo[b] * (1.0 - medium.asymmetry);
         const double absorption = medium.extinction[b] * (1.0 - medium.albedo[b]);
-        const double extinction = absorption + scattering;
+        // Without a forward part that of the medium, to the bit, whatever its albedo.
+        const double extinction =
+            medium.extinction[b] * (1.0 - medium.albedo[b] * medium.asymmetry);
         const double albedo = extinction > 0.0 ? scattering / extinction : 0.0;
         result.extinction.push_back(extinction);
         result.absorption.push_back(absorption);

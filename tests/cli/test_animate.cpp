@@ -192,6 +192,23 @@ TEST_CASE("What cannot be a body is solved anew in every frame, and says why", "
           "what moves is solved anew in every frame, since it is drawn by \"two_pass\".");
 }
 
+TEST_CASE("Frames whose lights move keep exchange areas, and are whole solves to the bit",
+          "[animate][long]") {
+    const test::Workplace place("animate_lights");
+    const std::string sun = track("light.sun.sun.direction",
+                                  "frames = [0, 2]\nvalues = [[1, 0.2, -0.5], [1, -0.2, -0.3]]");
+    const std::string denser =
+        track("medium.haze.extinction", "frames = [2, 3]\nvalues = [0.5, 1]");
+    place.write("room.toml", animated_room + "[animation]\nframes = 4\n" + sun + denser);
+    const auto report = Json::parse(place.good("animate room.toml -o film --json"));
+    CHECK(done(place, "film") == "solved solved solved solved");
+    std::vector<bool> kept;
+    for (const auto& frame : report.at("frames")) kept.push_back(frame.at("rows_kept"));
+    CHECK(kept == std::vector{false, true, true, false});
+    place.good("animate room.toml -o part --quiet --frames 2");
+    CHECK(place.read("part/frames/0002.exr") == place.read("film/frames/0002.exr"));
+}
+
 TEST_CASE("Frames are kept, made in parts, and made anew for another scene", "[animate][long]") {
     const test::Workplace place("animate_parts");
     const std::string camera =
