@@ -47,6 +47,7 @@ class SampleSet {
     // What has been gathered is to be gathered anew, from other sources.
     void forget_indirect() { gathered_.assign(gathered_.size(), false); }
 
+    // Whether `gather_at` has been asked for it.
     bool gathered(SampleId id) const { return id.value < gathered_.size() && gathered_[id.value]; }
     double direct(SampleId id, std::size_t band) const { return direct_[id.value * bands_ + band]; }
     double indirect(SampleId id, std::size_t band) const {
