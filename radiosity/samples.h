@@ -49,6 +49,7 @@ class SampleSet {
 
     // Whether `gather_at` has been asked for it.
     bool gathered(SampleId id) const { return id.value < gathered_.size() && gathered_[id.value]; }
+
     double direct(SampleId id, std::size_t band) const { return direct_[id.value * bands_ + band]; }
     double indirect(SampleId id, std::size_t band) const {
         return indirect_[id.value * bands_ + band].mean;
