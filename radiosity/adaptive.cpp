@@ -123,7 +123,7 @@ class Loop {
                                  options_.seed);
         if (kept_.moved) indirect.begin_with(kept_.moved->settled);
         gather(coarse, lit, importance,
-               adaptive() && asks_for(options_, "indirect") ? (1.0 - direct_share) * goal : 1e300,
+               refines() && asks_for(options_, "indirect") ? (1.0 - direct_share) * goal : 1e300,
                indirect);
         Solution solution =
             collect(coarse, [&](auto leaf, std::size_t b) { return indirect.field(leaf, b); });
@@ -188,7 +188,7 @@ class Loop {
         mesh_.samples().keep_in(kept_.keep ? &kept_.keep->gathers : nullptr);
         const Fields in_zones = kept_.keep ? sources.fields : Fields{};
         RefineLimits all = limits(1.0);
-        all.grow = !kept_.moved;
+        all.grow = !kept_.moved && !kept_.frozen;
         const auto zones =
             indirect.refine_zones(sources, importance, zone_share * goal, all, progress_);
         note(zones);
@@ -218,7 +218,8 @@ class Loop {
 
     // Before the last turn the mesh to begin with is not in yet: what there is, is coarser.
     bool saving(bool last) const { return kept_.save && (last || !kept_.begin_with); }
-    bool adaptive() const { return options_.refinement >= Refinement::adaptive && !kept_.frozen; }
+    bool refines() const { return options_.refinement >= Refinement::adaptive; }
+    bool adaptive() const { return refines() && !kept_.frozen; }
     // `share` of the elements allowed: what direct light may not use is left for indirect light.
     RefineLimits limits(double share) const {
         const auto& base = enclosure_->mesh;
