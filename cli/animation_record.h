@@ -23,7 +23,8 @@ struct FrameRecord {
     double estimated_error = 0.0;
     std::size_t patches = 0, zones = 0;
     std::vector<std::string> warnings;
-    bool rows_kept = false;  // of solved frames: exchange areas are those of a frame before
+    // Of solved frames: exchange areas of the first elements are those of a frame before.
+    bool rows_kept = false;
 };
 
 // Solutions that frames are sums of, or the one that frames with moved bodies begin with.

@@ -123,7 +123,8 @@ class Loop {
                                  options_.seed);
         if (kept_.moved) indirect.begin_with(kept_.moved->settled);
         gather(coarse, lit, importance,
-               refines() && asks_for(options_, "indirect") ? (1.0 - direct_share) * goal : 1e300,
+               refines() && asks_for(options_, "indirect") ? (1.0 - direct_share) * goal
+                                                           : IndirectRefiner::no_goal,
                indirect);
         Solution solution =
             collect(coarse, [&](auto leaf, std::size_t b) { return indirect.field(leaf, b); });

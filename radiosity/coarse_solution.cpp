@@ -269,7 +269,7 @@ bool CoarseSolution::add_band(std::size_t b, const std::vector<double>& incident
                                             .over_relaxation = options_.over_relaxation,
                                             .overshooting = options_.overshooting,
                                             .ambient = options_.ambient,
-                                            .balance = guess_.empty(),
+                                            .balance = guess_.empty() || options_.solver != "gmres",
                                             .guess = guess});
     add_to_report(result, solved.report);
     for (std::size_t i = 0; i < n; ++i) {

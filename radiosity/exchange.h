@@ -160,7 +160,7 @@ double closure_error(const ExchangeAreas& areas, const Elements& elements, std::
 
 // Σ_ij |S_ij − S_ji| / Σ_ij S_ij over the elements, outside left out [-]. Where columns stand for
 // several elements: estimated, from one of them drawn by its share. From 64 rows, or up to twice as
-// many.
+// many; of rows of more than 511 entries from 256, or up to twice as many.
 double reciprocity_error(const ExchangeAreas& areas, const Elements& elements);
 
 }  // namespace tyndall::radiosity

@@ -28,7 +28,10 @@ struct ExtinctionBand {
         const auto halves = shape->halves(origin, direction, begin, end);
         return segment_weights(factor * halves[0], factor * halves[1]);
     }
-    bool operator==(const ExtinctionBand&) const = default;
+    // The same values at the same places.
+    bool operator==(const ExtinctionBand& other) const {
+        return factor == other.factor && (shape == other.shape || *shape == *other.shape);
+    }
 };
 
 // One segment in several bands, one after the other: a shape that bands share is integrated once.

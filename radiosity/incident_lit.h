@@ -26,8 +26,8 @@ std::vector<double> lit_in_middles(const Enclosure& enclosure, const Forest& for
                                    const Elements& elements, const LitPatches& lit);
 
 // The means after bodies have moved: what has changed in the middle of an element has changed so
-// all over it, but within its own size of a body, where the mean is taken anew. Cost: little more
-// than lit_in_middles.
+// all over it, but within half its own size of a body, where the mean is taken anew. Cost: little
+// more than lit_in_middles.
 std::vector<double> incident_lit(const Enclosure& enclosure, const Forest& forest,
                                  const Elements& elements, const LitPatches& lit,
                                  const LitBefore& before);

@@ -43,7 +43,7 @@ std::size_t KeptLight::memory() const {
     for (const auto* values : {&gathered_from.sent, &gathered_from.by_lit, &gathered_from.by_rows,
                                &lit_in_middles, &coarse_errors})
         bytes += values->size() * sizeof(double);
-    bytes += rows->memory();
+    if (rows) bytes += rows->memory();
     bytes += directions.size() * sizeof(glm::vec3);
     return bytes;
 }

@@ -35,7 +35,7 @@ struct KeptLight {
     std::shared_ptr<const Enclosure> enclosure;
     Forest coarse_forest;  // whose leaves are the coarse solution's elements
     Elements elements;
-    std::shared_ptr<const Rows> rows;
+    std::shared_ptr<const Rows> rows;   // null until taken
     std::vector<glm::vec3> directions;  // of their rays (exchange_moved.h)
     GatheredFrom gathered_from;
     std::vector<double> lit_in_middles;  // incident_lit.h

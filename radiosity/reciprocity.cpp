@@ -67,12 +67,15 @@ double reciprocity_error(const ExchangeAreas& areas, const Elements& elements) {
     for (std::size_t i = 0; i < areas.rows(); i += stride) {
         const std::size_t begin = areas.starts[i], end = areas.starts[i + 1];
         const std::size_t step = std::max<std::size_t>(1, (end - begin) / sampled_entries);
-        for (std::size_t k = begin; k < end; k += step) {
+        // One of each `step` entries stands for them all.
+        for (std::size_t first = begin; first < end; first += step) {
+            const std::size_t of = std::min(step, end - first);
+            const std::size_t k = first + hash_seed(i, first) % of;
             if (areas.columns[k] == elements.outside()) continue;
             const auto [j, share] = drawer.draw(areas.columns[k], hash_seed(i, k));
-            const double value = areas.value(k);
+            const double value = static_cast<double>(of) * areas.value(k);
             total += value;
-            const double forth = areas.levels.empty() ? value : spread_entry(areas, i, j);
+            const double forth = areas.levels.empty() ? areas.value(k) : spread_entry(areas, i, j);
             if (!(forth > 0.0)) continue;
             const double back = spread_entry(areas, j, static_cast<std::uint32_t>(i));
             // Other columns of the row may stand for j too: this one answers for its part. A pair

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <limits>
 
 #include "radiosity/element_mesh.h"
 #include "radiosity/importance.h"
@@ -122,6 +123,9 @@ struct IndirectSources {
 // on. An element below one that was found good enough takes over its linear function.
 class IndirectRefiner {
   public:
+    // The goal of a refinement that is to end where it begins.
+    static constexpr double no_goal = std::numeric_limits<double>::infinity();
+
     // `coarse`: the elements where the descent starts.
     IndirectRefiner(const Enclosure& enclosure, ElementMesh& mesh, const Elements& coarse,
                     std::size_t rays, std::uint64_t seed);

@@ -130,7 +130,7 @@ std::pair<double, std::array<int, 2>> IndirectRefiner::measure(Node node) {
         noise[b] = deviations * departure_noise * std::sqrt(noise[b] / number);
     }
 
-    double worst = 0.0, square = 0.0;
+    double worst = 0.0, square = 0.0, measured = 0.0;
     std::array<int, 2> edge = mesh_.forest().longest_edge(node);
     std::size_t next = corners.size();
     for (int i = 0; i < count; ++i)
@@ -145,6 +145,7 @@ std::pair<double, std::array<int, 2>> IndirectRefiner::measure(Node node) {
                 error += std::max(0.0, std::abs(departure) - noise[b]);
             }
             square += error * error;
+            ++measured;
             const double length =
                 glm::distance(mesh_.forest().point(vertices[i]), mesh_.forest().point(vertices[j]));
             if (error > worst && length > 0.35 * mesh_.forest()[node].longest_edge) {
@@ -152,8 +153,8 @@ std::pair<double, std::array<int, 2>> IndirectRefiner::measure(Node node) {
                 edge = {i, j};
             }
         }
-    const double points = 0.5 * count * (count - 1);
-    return {remaining * std::sqrt(square / points) / static_cast<double>(enclosure_.bands), edge};
+    if (measured == 0.0) return {error_by_corners(node), edge};
+    return {remaining * std::sqrt(square / measured) / static_cast<double>(enclosure_.bands), edge};
 }
 
 double IndirectRefiner::scatter(ZoneId zone) const {
@@ -204,7 +205,7 @@ RefineResult IndirectRefiner::refine(std::vector<Node> frontier, IndirectSources
             }
             settled.flags[node.value] = true;
             settled.errors[node.value] = static_cast<float>(error);
-            settled.linear[node.value] = share <= linear_share * threshold;
+            settled.linear[node.value] = goal < no_goal && share <= linear_share * threshold;
             result.squared_error += share;
             if (descend && limits.grow && share > shown_share * remaining * remaining * threshold)
                 shown.push_back(node);

@@ -30,6 +30,12 @@ class RegularGrid {
     RegularGrid(std::array<std::size_t, 3> counts, Point low, Point high, std::vector<float> values,
                 BeyondGrid beyond = BeyondGrid::nothing);
 
+    // The same values in the same box. Cost: O(points).
+    bool operator==(const RegularGrid& other) const {
+        return counts_ == other.counts_ && low_ == other.low_ && high_ == other.high_ &&
+               beyond_ == other.beyond_ && values_ == other.values_;
+    }
+
     const std::array<std::size_t, 3>& counts() const { return counts_; }
     Point low() const { return low_; }
     Point high() const { return high_; }

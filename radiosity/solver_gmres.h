@@ -10,8 +10,8 @@ namespace tyndall::radiosity {
 //   on Eigen's vectors, because Eigen's keeps no history.
 // Valid for: every a ≤ 1 with some loss. 10–20 iterations to 1e-6 whatever the size.
 // Errors: none; not converged is a result. It ends when a whole cycle of steps gains nothing.
-// Cost: one pass over the entries an iteration, in parallel, and O(elements × steps). Memory: 41
-//   vectors.
+// Cost: one pass over the entries an iteration, in parallel, and O(elements × steps). Memory: two
+//   vectors a step, 81 at most.
 // Source: Saad & Schultz (1986).
 SolverResult solve_gmres(const LinearProblem& problem, const SolverOptions& options);
 

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "radiosity/point_set.h"
 #include "support/catch.h"
 #include "support/crowded_cube.h"
 #include "support/cube.h"
@@ -169,4 +170,29 @@ TEST_CASE("Closure and reciprocity errors are what their headers say", "[exchang
     CHECK(closure_error(areas, elements, 0) == 0.5);
     // Σ_ij |S_ij − S_ji| = 2·2 + 2·1 over Σ S_ij = 5.
     CHECK(reciprocity_error(areas, elements) == Approx(6.0 / 5.0));
+}
+
+TEST_CASE("Reciprocity of long rows is estimated from a part of each", "[exchange]") {
+    // S_ij of any two elements are apart by as much as two uniform numbers from 1 to 2, but for a
+    // half of the elements, which are reciprocal among themselves and have shorter rows.
+    constexpr std::uint32_t n = 1200, half = n / 2;
+    Elements elements;
+    elements.patches.resize(n);
+    elements.capacity.assign(n, 1.0);
+    ExchangeAreas areas;
+    double difference = 0.0, total = 0.0;
+    const auto entry = [](std::uint32_t i, std::uint32_t j) {
+        return 1.0f + 0x1p-53f * static_cast<float>(hash_seed(i, j) >> 11);
+    };
+    for (std::uint32_t i = 0; i < n; ++i) {
+        const bool first = i < half;
+        for (std::uint32_t j = first ? 0 : half; j < (first ? half : n); ++j) {
+            areas.columns.push_back(j);
+            areas.values.push_back(first ? 1.0f : entry(i, j));
+            total += areas.values.back();
+            if (!first) difference += std::abs(entry(i, j) - entry(j, i));
+        }
+        areas.starts.push_back(areas.columns.size());
+    }
+    CHECK(reciprocity_error(areas, elements) == Approx(difference / total).epsilon(0.03));
 }
