@@ -309,20 +309,17 @@ TEST_CASE("A solve after a body has moved is the full solve's", "[moving][long]"
 double off_on_bodies(const Solution& a, const Solution& b) {
     const mesh::BaseMesh& mesh = b.enclosure->mesh;
     double square = 0.0, whole = 0.0;
-    for (std::size_t f = 0; f < mesh.facets.size(); ++f) {
-        if (!mesh::on_body(mesh, FacetId(f))) continue;
-        for (const Side side : {Side::front, Side::back}) {
-            if (b.enclosure->facet_sides[f][side == Side::back] == none) continue;
-            const PatchId root = mesh::root_patch(FacetId(f), side);
-            const auto& corners = b.forest[root].corners;
-            for (int k = 0; k < 3; ++k) {  // beside the middle of an edge
-                const Point x =
-                    0.45 * (b.forest.point(corners[k]) + b.forest.point(corners[(k + 1) % 3])) +
-                    0.1 * b.forest.point(corners[(k + 2) % 3]);
-                const double is = b.indirect.at(b.forest.leaf_at(root, x), 0).at(x);
-                square += std::pow(a.indirect.at(a.forest.leaf_at(root, x), 0).at(x) - is, 2);
-                whole += is * is;
-            }
+    for (std::size_t p = 0; p < 2 * mesh.facets.size(); ++p) {
+        const PatchId root(p);  // of a facet's side
+        if (!mesh::on_body(mesh, FacetId(p / 2)) || side_of(*b.enclosure, b.forest, root) == none)
+            continue;
+        const auto& corners = b.forest[root].corners;
+        for (int k = 0; k < 3; ++k) {  // beside the middle of an edge
+            const auto corner = [&](int i) { return b.forest.point(corners[i % 3]); };
+            const Point x = 0.45 * (corner(k) + corner(k + 1)) + 0.1 * corner(k + 2);
+            const double is = b.indirect.at(b.forest.leaf_at(root, x), 0).at(x);
+            square += std::pow(a.indirect.at(a.forest.leaf_at(root, x), 0).at(x) - is, 2);
+            whole += is * is;
         }
     }
     REQUIRE(whole > 0.0);
