@@ -11,7 +11,7 @@ namespace {
 
 // Of an element's size: nearer to a body a mean is taken anew. The whole size costs a third more,
 // and leaves the picture as it is.
-constexpr double near = 0.5;
+constexpr double anew_within = 0.5;
 
 using Rule = std::vector<std::pair<Receiver, double>>;
 
@@ -92,7 +92,7 @@ template <class Node>
 bool near_body(const Forest& forest, Node node, std::span<const mesh::Body> bodies) {
     return std::ranges::any_of(bodies, [&](const mesh::Body& body) {
         return glm::distance(forest.centroid(node), body.centre) <=
-               body.radius + near * forest[node].longest_edge;
+               body.radius + anew_within * forest[node].longest_edge;
     });
 }
 
