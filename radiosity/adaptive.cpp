@@ -152,10 +152,10 @@ class Loop {
     }
 
     // Of the elements that there are before any is bisected: those of the first coarse solution.
-    std::shared_ptr<const Rows> shared_rows() {
+    std::shared_ptr<const RowSet> shared_rows() {
         return sharing_ ? sharing_->of(enclosure_, options_) : nullptr;
     }
-    void leave(const std::shared_ptr<const Rows>& rows) {
+    void leave(const std::shared_ptr<const RowSet>& rows) {
         if (const auto sharing = std::exchange(sharing_, {})) sharing->leave(rows);
     }
 

@@ -31,7 +31,7 @@ CoarseSolution::CoarseSolution(const Enclosure& enclosure, const Forest& forest,
 
 CoarseSolution::CoarseSolution(const Enclosure& enclosure, const Forest& forest, Elements elements,
                                const SolveOptions& options, const ProgressCallback& progress,
-                               const KeptRows* kept, std::shared_ptr<const Rows> made)
+                               const KeptRows* kept, std::shared_ptr<const RowSet> made)
     : enclosure_(enclosure),
       forest_(forest),
       options_(options),
@@ -52,7 +52,7 @@ CoarseSolution::CoarseSolution(const Enclosure& enclosure, const Forest& forest,
         matrix_.push_back(same < band ? matrix_[same] : distinct.size());
         if (same == band) distinct.push_back(band);
     }
-    auto rows = std::make_shared<Rows>();
+    auto rows = std::make_shared<RowSet>();
     rows_ = made ? std::move(made) : rows;
     lost_rays_ = rows_->lost_rays;
     if (on_the_fly()) {

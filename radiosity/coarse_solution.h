@@ -16,7 +16,7 @@ struct NamedSolver;
 // Rows of the same elements before bodies have moved, of each distinct extinction.
 struct KeptRows {
     Discretization discretization;
-    const Rows& rows;
+    const RowSet& rows;
     std::span<const glm::vec3> directions;  // of their rays (ray_directions)
     // What their solution sent out, of patches less what they reflect of direct light, to begin
     // with ([element * bands + band]) [W/m^2/sr].
@@ -34,14 +34,14 @@ class CoarseSolution {
     // elements, as they are.
     CoarseSolution(const Enclosure& enclosure, const Forest& forest, Elements elements,
                    const SolveOptions& options, const ProgressCallback& progress,
-                   const KeptRows* kept = nullptr, std::shared_ptr<const Rows> made = {});
+                   const KeptRows* kept = nullptr, std::shared_ptr<const RowSet> made = {});
 
     const Elements& elements() const { return elements_; }
     const Forest& forest() const { return forest_; }
     // The rows; none where shots are on the fly.
     const ExchangeAreas& areas(std::size_t band) const { return rows_->areas[matrix_[band]]; }
     // Those of each distinct extinction; to be used again as `made`.
-    const std::shared_ptr<const Rows>& rows() const { return rows_; }
+    const std::shared_ptr<const RowSet>& rows() const { return rows_; }
     // S_i,out [m^2].
     double to_outside(std::size_t element, std::size_t band) const;
     // max_i |Σ_j S_ij − c_i| / c_i of the rows that are kept, or have been made so far [-].
@@ -106,9 +106,9 @@ class CoarseSolution {
 
     bool on_the_fly() const { return options_.shots == Shots::on_the_fly; }
     ExchangeOptions exchange_options(std::size_t band) const;
-    void make_areas(std::span<const std::size_t> bands, const KeptRows* kept, Rows& rows);
+    void make_areas(std::span<const std::size_t> bands, const KeptRows* kept, RowSet& rows);
     void make_rows(std::size_t band, std::span<const ElementId> rows, const RowSink& sink) const;
-    void make_in_mirrors(std::span<const std::size_t> bands, Rows& rows);
+    void make_in_mirrors(std::span<const std::size_t> bands, RowSet& rows);
     void find_outside(std::size_t band);
     SolverResult solve_band(std::size_t band, std::span<const double> source,
                             const NamedSolver& solver, const SolverOptions& options) const;
@@ -131,7 +131,7 @@ class CoarseSolution {
     ProgressCallback progress_;
     Elements elements_;
     SettledEmission settled_;
-    std::shared_ptr<const Rows> rows_;
+    std::shared_ptr<const RowSet> rows_;
     std::vector<std::size_t> matrix_;  // which of the rows a band uses
     // Of each of the rows: S_i,out of every element; on the fly nothing if the scene is closed
     // [m^2].

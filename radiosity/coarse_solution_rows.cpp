@@ -11,7 +11,7 @@ namespace tyndall::radiosity {
 
 // What reaches patches by way of mirrors, of the same rays: e^A, and what patches reflect of direct
 // light, are seen straight in closed form, but not so.
-void CoarseSolution::make_in_mirrors(std::span<const std::size_t> bands, Rows& rows) {
+void CoarseSolution::make_in_mirrors(std::span<const std::size_t> bands, RowSet& rows) {
     ExchangeOptions chosen = exchange_options(bands.front());
     chosen.detail = on_the_fly() ? 0.0 : options_.row_detail;
     chosen.legs = RowLegs::in_mirrors;
@@ -26,7 +26,7 @@ void CoarseSolution::make_in_mirrors(std::span<const std::size_t> bands, Rows& r
 
 // Of bands with extinctions that differ; by one walk for all, where the method can.
 void CoarseSolution::make_areas(std::span<const std::size_t> bands, const KeptRows* kept,
-                                Rows& rows) {
+                                RowSet& rows) {
     auto& areas = rows.areas;
     const NamedExchangeMethod& method = exchange_method(options_.exchange);
     const Discretization d{enclosure_, forest_, elements_};

@@ -53,7 +53,7 @@ void KeptLight::take(const CoarseSolution& coarse, const std::vector<double>& in
     elements = coarse.elements();
     // A copy: what the solve lets go the first frame's rows will take. Pages that a system has to
     // find anew cost a third of a frame where it is a virtual machine.
-    rows = std::make_shared<const Rows>(*coarse.rows());
+    rows = std::make_shared<const RowSet>(*coarse.rows());
     directions = coarse.ray_directions();
     gathered_from = radiosity::gathered_from(coarse, incident_direct, incident_lit);
 }

@@ -35,8 +35,8 @@ struct KeptLight {
     std::shared_ptr<const Enclosure> enclosure;
     Forest coarse_forest;  // whose leaves are the coarse solution's elements
     Elements elements;
-    std::shared_ptr<const Rows> rows;   // null until taken
-    std::vector<glm::vec3> directions;  // of their rays (exchange_moved.h)
+    std::shared_ptr<const RowSet> rows;  // null until taken
+    std::vector<glm::vec3> directions;   // of their rays (exchange_moved.h)
     GatheredFrom gathered_from;
     std::vector<double> lit_in_middles;  // incident_lit.h
     std::vector<double> coarse_errors;   // error_estimate.h

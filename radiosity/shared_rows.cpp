@@ -4,7 +4,7 @@
 
 namespace tyndall::radiosity {
 
-std::size_t Rows::memory() const {
+std::size_t RowSet::memory() const {
     std::size_t bytes = 0;
     for (const auto* of : {&areas, &in_mirrors})
         for (const ExchangeAreas& one : *of) bytes += one.memory();
@@ -24,8 +24,8 @@ bool same_for_rays(const Enclosure& a, const Enclosure& b) {
            std::ranges::equal(a.media, b.media, same_extinction);
 }
 
-std::shared_ptr<const Rows> SharedRows::of(std::shared_ptr<const Enclosure> enclosure,
-                                           const SolveOptions& options) {
+std::shared_ptr<const RowSet> SharedRows::of(std::shared_ptr<const Enclosure> enclosure,
+                                             const SolveOptions& options) {
     if (rows_ && !(options_ == options && same_for_rays(*enclosure_, *enclosure))) rows_.reset();
     if (!rows_) {
         enclosure_ = std::move(enclosure);

@@ -10,7 +10,7 @@
 namespace tyndall::radiosity {
 
 // Rows of a solution's elements, of each distinct extinction.
-struct Rows {
+struct RowSet {
     std::vector<ExchangeAreas> areas;
     std::vector<ExchangeAreas> in_mirrors;  // the same, RowLegs::in_mirrors; none without mirrors
     std::size_t lost_rays = 0;              // of those walked for them, by the walk's step cap
@@ -25,16 +25,16 @@ class SharedRows {
     // The rows that are here, if a solve of this enclosure would make the same: the mesh, the
     // extinctions, the mirrors and the options are those they were made of. Others are let go, and
     // null is returned.
-    std::shared_ptr<const Rows> of(std::shared_ptr<const Enclosure> enclosure,
-                                   const SolveOptions& options);
+    std::shared_ptr<const RowSet> of(std::shared_ptr<const Enclosure> enclosure,
+                                     const SolveOptions& options);
     // Those of the enclosure and options last asked for.
-    void leave(std::shared_ptr<const Rows> rows) { rows_ = std::move(rows); }
+    void leave(std::shared_ptr<const RowSet> rows) { rows_ = std::move(rows); }
     bool empty() const { return !rows_; }
 
   private:
     std::shared_ptr<const Enclosure> enclosure_;
     SolveOptions options_;
-    std::shared_ptr<const Rows> rows_;
+    std::shared_ptr<const RowSet> rows_;
 };
 
 // Whether all that rays meet in two enclosures is the same: the mesh, κ of its media, what is

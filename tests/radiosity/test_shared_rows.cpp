@@ -90,7 +90,7 @@ TEST_CASE("Solves of scenes that differ in lights and scattering share rows, to 
 TEST_CASE("Rows are made anew where rays would meet something else", "[shared_rows]") {
     const Scene scene = sunny_room();
     const auto made = enclosure_of(scene);
-    const auto rows = std::make_shared<const Rows>();
+    const auto rows = std::make_shared<const RowSet>();
     const auto fit = [&](const Scene& other, const SolveOptions& options = cheap()) {
         SharedRows shared;
         CHECK_FALSE(shared.of(made, cheap()));
