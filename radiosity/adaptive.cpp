@@ -30,8 +30,8 @@ constexpr double direct_share = 0.78, zone_share = 0.3;
 // rays: measured, 1 and 4 give the same picture, 4 in half the time.
 constexpr double detail_factor = 4.0;
 
-// What the linear system may leave where bodies have moved, of the goal and at most: what is kept of
-// the solution before is no better, and powers of small bodies bear no more.
+// What the linear system may leave where bodies have moved, of the goal and at most: what is kept
+// of the solution before is no better, and powers of small bodies bear no more.
 constexpr double moved_tolerance = 1e-2, most_moved_tolerance = 2e-4;
 
 // A mesh that is going to be promoted needs to be this much coarser than the next.
