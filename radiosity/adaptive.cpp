@@ -24,7 +24,7 @@ namespace {
 // How the squared error goal is shared out. Errors of direct light have either sign from leaf to
 // leaf; those of zones' indirect light are smooth and add up along a ray, and need leaves only
 // where direct light has made none: they get little of what is left. Patches get the rest.
-constexpr double direct_share = 0.78, zone_share = 0.3;
+constexpr double direct_share = 0.78, zone_share = 0.1;
 
 // A gather's zone may stand for its leaves when it is no longer than this many spacings of its
 // rays: measured, 1 and 4 give the same picture, 4 in half the time.

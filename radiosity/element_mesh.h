@@ -8,8 +8,9 @@
 namespace tyndall::radiosity {
 
 // A zone is seen as an integral along chords. Its function keeps the mean, so that along a chord
-// what is left has either sign: about half of its deviation remains [-].
-inline constexpr double chord_share = 0.5;
+// what is left has either sign: about half of the deviation from a constant remains, and a quarter
+// of that from the linear function that fits best, whose sign changes more often [-].
+inline constexpr double chord_share = 0.5, fitted_chord_share = 0.25;
 
 // Only nodes that light can reach are listed: zones in a medium, patches on a side that faces a
 // region which is not solid. Lists grow in the order of creation; a node that has been bisected

@@ -59,6 +59,11 @@ class DirectRefiner {
     // Mean of H^A over a leaf: sampled, or by the degree-2 rule of corners and centroid.
     double mean(ZoneId zone, std::size_t band);
     double mean(PatchId patch, std::size_t band);
+    // H^A of a zone that has been sampled, the linear function nearest to it; null of others.
+    const Affine* fitted(ZoneId zone, std::size_t band) const {
+        const Affine* fits = sampled_.fit(zone);
+        return fits ? fits + band : nullptr;
+    }
     // Evaluates what marks of the mesh have made new since `update`, at all leaves: to be called
     // before `mean_difference`.
     void light_middles();
@@ -87,6 +92,8 @@ class DirectRefiner {
     template <class Node>
     void measure(Node node, std::vector<float>& errors, std::vector<std::uint8_t>& edges,
                  const std::vector<double>& centroid);
+    // Deviation of H^A from the linear function nearest to it, by the samples there are.
+    double left_by_linear(ZoneId zone, const std::vector<double>& centroid);
     double collect(const Importance& importance, const RefineLimits& limits, const Asked& asked,
                    std::vector<Candidate>& candidates) const;
     bool keep_worst(std::vector<Candidate>& candidates, double& evenness, double sum,

@@ -13,24 +13,43 @@ namespace {
 // what patches hold counts for less than what zones hold: for what they reflect.
 constexpr double seen_patch_share = 0.03;
 
-// Departures from linear, and their statistics.
-class Departures {
+// Of departures from linear.
+class RootMeanSquare {
   public:
     double add(double departure) {
-        sum_ += departure;
         square_ += departure * departure;
         ++count_;
         return departure;
     }
-    double root_mean_square() const { return std::sqrt(square_ / count_); }
-    double deviation() const {
-        const double mean = sum_ / count_;
-        return std::sqrt(std::max(0.0, square_ / count_ - mean * mean));
-    }
+    double value() const { return std::sqrt(square_ / count_); }
 
   private:
-    double sum_ = 0.0, square_ = 0.0, count_ = 0.0;
+    double square_ = 0.0, count_ = 0.0;
 };
+
+// What the linear function nearest to a tet's values leaves of them: its corners, the middles of
+// its edges and its centroid, eleven for four numbers.
+//   Σ_k (Σ_i λ_i(x_k) h_i − f_k)² → min:  Σ_k λ λᵀ = (a − b) 1 + b 11ᵀ
+double squares_left(const std::array<double, 4>& corners, const std::array<double, 6>& middles,
+                    double centroid) {
+    constexpr double a = 1.0 + 3.0 / 4.0 + 1.0 / 16.0, b = 1.0 / 4.0 + 1.0 / 16.0;
+    std::array<double, 4> h;
+    for (int i = 0; i < 4; ++i) h[i] = corners[i] + 0.25 * centroid;
+    for (int i = 0, e = 0; i < 4; ++i)
+        for (int j = i + 1; j < 4; ++j, ++e) {
+            h[i] += 0.5 * middles[e];
+            h[j] += 0.5 * middles[e];
+        }
+    const double sum = (h[0] + h[1] + h[2] + h[3]) / (a + 3.0 * b);
+    const auto square = [](double x) { return x * x; };
+    double left = square(0.25 * sum - centroid);
+    for (double& v : h) v = (v - b * sum) / (a - b);
+    for (int i = 0, e = 0; i < 4; ++i) {
+        left += square(h[i] - corners[i]);
+        for (int j = i + 1; j < 4; ++j, ++e) left += square(0.5 * (h[i] + h[j]) - middles[e]);
+    }
+    return left;
+}
 
 // A tet's edge is bisected where the error is largest, so that meshes stretch along shafts, but
 // never one much shorter than the longest, so that slivers do not run away.
@@ -46,6 +65,8 @@ constexpr double first_evenness = 16.0, less_even = 0.7;
 // Of the power of direct light: a leaf whose error may be worth more has its mean sampled. Those
 // below are many and of either sign.
 constexpr double felt_power = 1e-5;
+// The same of zones, which are given the function that fits best, too: a sum over many.
+constexpr double felt_by_zones = 1e-7;
 
 }  // namespace
 
@@ -70,7 +91,7 @@ void DirectRefiner::measure(Node node, std::vector<float>& errors, std::vector<s
     const auto longest = forest.longest_edge(node);
     std::array<int, 2> split = longest;
     double worst_edge = 0.0, at_centroid = 0.0;
-    Departures departures;
+    RootMeanSquare departures;
     for (std::size_t b = 0; b < bands_; ++b) {
         double mean = 0.0;
         for (const SampleId id : corner) mean += samples.direct(id, b) / count;
@@ -93,9 +114,29 @@ void DirectRefiner::measure(Node node, std::vector<float>& errors, std::vector<s
         }
     if (at_centroid > 2.0 * worst_edge) split = longest;
     constexpr bool is_zone = std::is_same_v<Node, ZoneId>;
-    errors[node.value] = static_cast<float>(is_zone ? chord_share * departures.deviation()
-                                                    : departures.root_mean_square());
+    if constexpr (is_zone)
+        errors[node.value] =
+            static_cast<float>(fitted_chord_share * left_by_linear(node, centroid));
+    else
+        errors[node.value] = static_cast<float>(departures.value());
     edges[node.value] = static_cast<std::uint8_t>(4 * split[0] + split[1]);
+}
+
+double DirectRefiner::left_by_linear(ZoneId zone, const std::vector<double>& centroid) {
+    const auto corner = mesh_.lit_corners(zone);
+    std::array<SampleId, 6> middle;
+    for (int i = 0, e = 0; i < 4; ++i)
+        for (int j = i + 1; j < 4; ++j) middle[e++] = mesh_.lit_middle(zone, i, j);
+    double sum = 0.0;
+    for (std::size_t b = 0; b < bands_; ++b) {
+        const auto value = [&](SampleId id) { return mesh_.samples().direct(id, b); };
+        std::array<double, 4> at_corners;
+        std::array<double, 6> at_middles;
+        std::ranges::transform(corner, at_corners.begin(), value);
+        std::ranges::transform(middle, at_middles.begin(), value);
+        sum += squares_left(at_corners, at_middles, centroid[zone.value * bands_ + b]);
+    }
+    return std::sqrt(sum / (7.0 * static_cast<double>(bands_)));
 }
 
 void DirectRefiner::update() {
@@ -259,7 +300,7 @@ void DirectRefiner::sample_means() {
     }
     std::vector<ZoneId> zones;
     for (const ZoneId z : mesh_.zones())
-        if (forest.is_leaf(z) && capacity_of_zone(z) * worst_error(z) > felt_power * power)
+        if (forest.is_leaf(z) && capacity_of_zone(z) * worst_error(z) > felt_by_zones * power)
             zones.push_back(z);
     std::vector<PatchId> patches;
     for (const PatchId p : mesh_.patches())

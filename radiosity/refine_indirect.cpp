@@ -18,10 +18,9 @@ constexpr double deviations = 1.0;
 // gathered below them, 0.2 to 0.35 where light is smooth, and half at edges of light on surfaces.
 constexpr double remaining = 0.25;
 
-// Where a patch's departure from linear has more than this part of the share it may have, its
-// leaves are bisected to show the quadratic: they need no gathers, and light that bulges would else
-// be lost on every patch with the same sign.
-constexpr double shown_share = 0.02;
+// Where a patch's departure from linear would by itself have more than this part of the share it
+// may have, its leaves are bisected to show the quadratic: they need no gathers.
+constexpr double shown_share = 1.0;
 
 // A departure joins three samples of equal variance with weights 1, −1/2, −1/2.
 const double departure_noise = std::sqrt(1.5);

@@ -2,6 +2,8 @@
 
 #include <tbb/parallel_for.h>
 
+#include <Eigen/Cholesky>
+
 #include "radiosity/open_places.h"
 #include "radiosity/point_set.h"
 
@@ -20,23 +22,39 @@ constexpr std::uint64_t zone_seed = 0x7a6f6e65, patch_seed = 0x70617463;
 
 }  // namespace
 
-void SampledMeans::evaluate(ZoneId zone, double* mean) const {
-    const auto& corners = forest_[zone].corners;
+void SampledMeans::evaluate(ZoneId zone, std::size_t place) {
+    std::array<Point, 4> corners;
+    for (int c = 0; c < 4; ++c) corners[c] = forest_.point(forest_[zone].corners[c]);
     const TetId tet = forest_.base_tet(zone);
-    std::vector<double> incident(enclosure_.bands);
+    const std::size_t bands = enclosure_.bands;
+    std::vector<double> incident(bands);
+    // Σ_k λ λᵀ, and of each band Σ_k λ H.
+    Eigen::Matrix4d squares = Eigen::Matrix4d::Zero();
+    std::vector<Eigen::Vector4d> products(bands, Eigen::Vector4d::Zero());
     for (std::size_t k = 0; k < net_points().size(); ++k) {
         const auto u = net_points()(k, hash_seed(zone_seed, zone.value));
         const auto w = uniform_in_tet(u[0], u[1], u[2]);
         Point x(0.0);
-        for (int c = 0; c < 4; ++c) x += w[c] * forest_.point(corners[c]);
-        const OpenPlace place = open_place(enclosure_, x, tet);
-        light_.at_zone(place.x, place.tet, incident);
-        for (std::size_t b = 0; b < incident.size(); ++b)
-            mean[b] += incident[b] / static_cast<double>(net_points().size());
+        for (int c = 0; c < 4; ++c) x += w[c] * corners[c];
+        const OpenPlace open = open_place(enclosure_, x, tet);
+        light_.at_zone(open.x, open.tet, incident);
+        const Eigen::Map<const Eigen::Vector4d> lambda(w.data());
+        squares += lambda * lambda.transpose();
+        for (std::size_t b = 0; b < bands; ++b) {
+            zones_.means[place + b] += incident[b] / static_cast<double>(net_points().size());
+            products[b] += incident[b] * lambda;
+        }
+    }
+    const Eigen::LDLT<Eigen::Matrix4d> system(squares);
+    for (std::size_t b = 0; b < bands; ++b) {
+        const Eigen::Vector4d h = system.solve(products[b]);
+        Affine& fit = fits_[place + b];
+        fit = interpolate(corners, {h[0], h[1], h[2], h[3]});
+        fit.constant += zones_.means[place + b] - fit.at(forest_.centroid(zone));
     }
 }
 
-void SampledMeans::evaluate(PatchId patch, double* mean) const {
+void SampledMeans::evaluate(PatchId patch, std::size_t place) {
     const auto& corners = forest_[patch].corners;
     const TetId tet =
         mesh::tet_before(enclosure_.mesh, forest_.base_facet_side(patch), forest_.centroid(patch));
@@ -49,7 +67,7 @@ void SampledMeans::evaluate(PatchId patch, double* mean) const {
         for (int c = 0; c < 3; ++c) x += w[c] * forest_.point(corners[c]);
         light_.at_patch(x, normal, tet, incident);
         for (std::size_t b = 0; b < incident.size(); ++b)
-            mean[b] += incident[b] / static_cast<double>(net_points().size());
+            patches_.means[place + b] += incident[b] / static_cast<double>(net_points().size());
     }
 }
 
@@ -63,9 +81,9 @@ void SampledMeans::add(const std::vector<Node>& nodes, Sampled& sampled) {
         sampled.means.resize(sampled.means.size() + enclosure_.bands, 0.0);
         fresh.push_back(node);
     }
-    tbb::parallel_for(std::size_t(0), fresh.size(), [&](std::size_t k) {
-        evaluate(fresh[k], &sampled.means[sampled.place[fresh[k].value]]);
-    });
+    if constexpr (std::is_same_v<Node, ZoneId>) fits_.resize(sampled.means.size());
+    tbb::parallel_for(std::size_t(0), fresh.size(),
+                      [&](std::size_t k) { evaluate(fresh[k], sampled.place[fresh[k].value]); });
 }
 
 template void SampledMeans::add(const std::vector<ZoneId>&, Sampled&);
