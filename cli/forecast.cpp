@@ -38,7 +38,7 @@ struct SampledRows {
 };
 
 bool has_moments(const SolveOptions& options) {
-    return options.radiance == radiosity::Radiance::linear && !(options.row_detail > 0.0) &&
+    return options.radiance != radiosity::Radiance::constant && !(options.row_detail > 0.0) &&
            options.start != radiosity::Start::single_zone;
 }
 

@@ -88,7 +88,7 @@ void foresee_memory(const SceneFile& file, const radiosity::Enclosure& e, SceneS
     const double coarse = std::min(limit, std::max(start_elements, roots));
     const double per_row = std::min(coarse, crossings * static_cast<double>(file.solve.rays));
     const double per_element = leaf_bytes + leaf_band_bytes * bands;
-    const bool moments = file.solve.radiance == radiosity::Radiance::linear &&
+    const bool moments = file.solve.radiance != radiosity::Radiance::constant &&
                          !(file.solve.row_detail > 0.0) &&
                          file.solve.start != radiosity::Start::single_zone;
     const bool smoothed = file.solve.exchange_settings.smoothing != radiosity::Smoothing::none;

@@ -23,7 +23,7 @@ constexpr std::array<std::string_view, 2> shot_names{"rows", "on_the_fly"};
 constexpr std::array<std::string_view, 5> refinement_names{"none", "uniform", "adaptive", "view",
                                                            "aligned"};
 constexpr std::array<std::string_view, 4> start_names{"single-zone", "base", "uniform", "mesh"};
-constexpr std::array<std::string_view, 2> radiance_names{"constant", "linear"};
+constexpr std::array<std::string_view, 3> radiance_names{"constant", "linear", "quadratic"};
 constexpr std::array<std::string_view, 2> direct_light_names{"closed_form", "rows"};
 
 std::vector<std::string_view> exchange_names() {
@@ -80,7 +80,7 @@ constexpr SceneSetting solve_settings[] = {
      [](T t, K k, Settings& s) { s.solve.optical_thickness = t.number(k, positive); }},
     {{"promotions", "whole number", "0", "times the refined mesh, at a looser goal, is solved anew before the last refinement"},
      [](T t, K k, Settings& s) { s.solve.promotions = t.count(k, 0, 10); }},
-    {{"radiance", "\"constant\" or \"linear\"", "\"linear\"", "what an element holds: its mean, or a linear function with that mean"},
+    {{"radiance", "\"constant\", \"linear\" or \"quadratic\"", "\"linear\"", "what an element holds: its mean, a linear function with that mean, or a quadratic one (of direct light in zones, and of indirect light on patches)"},
      [](T t, K k, Settings& s) { s.solve.radiance = static_cast<radiosity::Radiance>(t.choice(k, radiance_names)); }},
     {{"direct_light", "\"closed_form\" or \"rows\"", "\"closed_form\"", "light straight from emitting surfaces: integrated over their visible part, or through the exchange areas"},
      [](T t, K k, Settings& s) { s.solve.direct_light = static_cast<radiosity::DirectLightMode>(t.choice(k, direct_light_names)); }},

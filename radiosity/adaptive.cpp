@@ -58,7 +58,8 @@ class Loop {
           light_(*enclosure_, {.emitters = options.direct_light == DirectLightMode::closed_form}),
           mesh_(*enclosure_),
           boundaries_(shadow_boundaries(*enclosure_, options)),
-          direct_(*enclosure_, mesh_, light_, boundaries_ ? &*boundaries_ : nullptr),
+          direct_(*enclosure_, mesh_, light_, boundaries_ ? &*boundaries_ : nullptr,
+                  options.radiance),
           leaf_light_(*enclosure_, mesh_, direct_, options.radiance) {
         if (options_.refinement < Refinement::view) view_.reset();
         if (options_.shots == Shots::rows && !kept_.moved) sharing_ = kept_.rows;
@@ -121,14 +122,14 @@ class Loop {
         show("direct light", coarse);
 
         IndirectRefiner indirect(*enclosure_, mesh_, coarse.elements(), options_.gather_rays,
-                                 options_.seed);
+                                 options_.seed, options_.radiance);
         if (kept_.moved) indirect.begin_with(kept_.moved->settled);
         gather(coarse, lit, importance,
                refines() && asks_for(options_, "indirect") ? (1.0 - direct_share) * goal
                                                            : IndirectRefiner::no_goal,
                indirect);
         Solution solution =
-            collect(coarse, [&](auto leaf, std::size_t b) { return indirect.field(leaf, b); });
+            collect(coarse, [&](auto leaf, std::size_t b) { return indirect.function(leaf, b); });
         end_pass("indirect light");
         // Bodies that have moved change little of the coarse solution's error.
         const std::vector<double> carried =

@@ -32,7 +32,8 @@ void CoarseSolution::make_areas(std::span<const std::size_t> bands, const KeptRo
     const Discretization d{enclosure_, forest_, elements_};
     ExchangeOptions chosen = exchange_options(bands.front());
     chosen.detail = options_.row_detail;
-    chosen.radiance = method.moments ? options_.radiance : Radiance::constant;
+    chosen.radiance =
+        method.moments ? std::min(options_.radiance, Radiance::linear) : Radiance::constant;
     chosen.progress = progress_;
     if (kept) {
         std::atomic<std::size_t> walked = 0;

@@ -34,6 +34,10 @@ Solution collect_solution(const LitLeaves& of, const CoarseSolution& coarse,
     solution.direct_light = options.direct_light;
     solution.direct.resize(forest, bands);
     solution.indirect.resize(forest, bands);
+    if (options.radiance == Radiance::quadratic) {
+        solution.direct.zone_bend.resize(forest.zone_count() * bands);
+        solution.indirect.patch_bend.resize(forest.patch_count() * bands);
+    }
     solution.zone_error.resize(forest.zone_count());
     solution.patch_error.resize(forest.patch_count());
     const auto fill = [&](auto node, float& error) {
@@ -41,10 +45,10 @@ Solution collect_solution(const LitLeaves& of, const CoarseSolution& coarse,
             // Zones are seen as integrals along rays, where the mean counts; patches are seen as
             // they are, where a jump from one to the next would show.
             if constexpr (std::is_same_v<decltype(node), ZoneId>)
-                solution.direct.at(node, b) = light.direct_with_mean(node, b);
+                solution.direct.set(node, b, light.direct_with_mean(node, b));
             else
-                solution.direct.at(node, b) = light.direct(node, b);
-            solution.indirect.at(node, b) = indirect(node, b);
+                solution.direct.set(node, b, light.direct(node, b));
+            solution.indirect.set(node, b, indirect(node, b));
         }
         error = static_cast<float>(direct.error(node));
     };

@@ -23,7 +23,7 @@ struct Equation {
 
 template <class Node>
 Equation equation(const Solution& s, Node node, std::size_t band) {
-    const Affine &direct = s.direct.at(node, band), &indirect = s.indirect.at(node, band);
+    const Affine direct = s.direct.at(node, band), indirect = s.indirect.at(node, band);
     return {emission_of(s, node, band),
             scatter_of(s, node, band),
             {direct.gradient + indirect.gradient, direct.constant + indirect.constant}};
@@ -72,7 +72,9 @@ class Grid {
             connectivity_.push_back(static_cast<std::int64_t>(points_.size() / 3));
             points_.insert(points_.end(), {p.x, p.y, p.z});
             for (std::size_t b = 0; b < bands_; ++b)
-                radiance_.push_back(equation(s_, node, b).radiance().at(p));
+                radiance_.push_back(emission_of(s_, node, b) +
+                                    scatter_of(s_, node, b) * (s_.direct.at(node, b).at(p) +
+                                                               s_.indirect.at(node, b).at(p)));
         }
         offsets_.push_back(static_cast<std::int64_t>(connectivity_.size()));
         const auto parent = s_.forest[node].parent;

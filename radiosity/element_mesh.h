@@ -8,9 +8,10 @@
 namespace tyndall::radiosity {
 
 // A zone is seen as an integral along chords. Its function keeps the mean, so that along a chord
-// what is left has either sign: about half of the deviation from a constant remains, and a quarter
-// of that from the linear function that fits best, whose sign changes more often [-].
-inline constexpr double chord_share = 0.5, fitted_chord_share = 0.25;
+// what is left has either sign: about half of the deviation from a constant remains, and a fifth
+// of that from the linear function that fits best, whose sign changes more often, where the zone is
+// thin [-].
+inline constexpr double chord_share = 0.5, fitted_chord_share = 0.2;
 
 // Only nodes that light can reach are listed: zones in a medium, patches on a side that faces a
 // region which is not solid. Lists grow in the order of creation; a node that has been bisected

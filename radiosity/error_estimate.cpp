@@ -126,7 +126,7 @@ LeafErrors leaf_errors(const Enclosure& enclosure, ElementMesh& mesh, DirectRefi
             errors.gathers.at(leaf, b) = noise;
             errors.coarse.at(leaf, b).constant = coarse_errors[element * bands + b];
             of_direct += square(direct.mean_difference(leaf, b)) / static_cast<double>(bands);
-            if (radiance == Radiance::linear) continue;
+            if (radiance != Radiance::constant) continue;
             of_direct += seen * variance(forest, leaf, leaf_light.direct(leaf, b));
             of_indirect += seen * variance(forest, leaf, indirect.field(leaf, b));
         }

@@ -32,6 +32,82 @@ Affine interpolate(const std::array<Point, 3>& p, const std::array<double, 3>& f
     return result;
 }
 
+namespace {
+
+template <std::size_t n>
+Bend centred(const std::array<double, 6>& second, const std::array<Point, n>& corners) {
+    Bend bend{second};
+    for (const Point& corner : corners) bend.centre += corner / double(n);
+    for (const Point& corner : corners)
+        bend.mean += bend.along(corner - bend.centre) / double(n * (n + 1));
+    return bend;
+}
+
+// `slopes`: ∇λ of the corners.
+template <std::size_t n>
+std::array<double, 6> second_of(const std::array<Direction, n>& slopes,
+                                const std::array<double, n*(n - 1) / 2>& departures) {
+    std::array<double, 6> second{};
+    std::size_t edge = 0;
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = i + 1; j < n; ++j, ++edge) {
+            const Direction a = 4.0 * departures[edge] * slopes[i], b = slopes[j];
+            const std::array<double, 6> one{2.0 * a.x * b.x,       2.0 * a.y * b.y,
+                                            2.0 * a.z * b.z,       a.x * b.y + a.y * b.x,
+                                            a.x * b.z + a.z * b.x, a.y * b.z + a.z * b.y};
+            for (std::size_t k = 0; k < 6; ++k) second[k] += one[k];
+        }
+    return second;
+}
+
+template <std::size_t n>
+LeafFunction interpolated(const std::array<Point, n>& corners, std::array<double, n> values,
+                          const std::array<double, n*(n - 1) / 2>& departures) {
+    const Bend bend = bend_of(corners, departures);
+    for (std::size_t k = 0; k < n; ++k) values[k] -= bend.at(corners[k]);
+    return {interpolate(corners, values), bend};
+}
+
+}  // namespace
+
+Bend bend_with(const std::array<double, 6>& second, const std::array<Point, 4>& corners) {
+    return centred(second, corners);
+}
+
+Bend bend_with(const std::array<double, 6>& second, const std::array<Point, 3>& corners) {
+    return centred(second, corners);
+}
+
+Bend bend_of(const std::array<Point, 4>& p, const std::array<double, 6>& departures) {
+    std::array<Direction, 4> slopes;
+    for (std::size_t i = 0; i < 4; ++i) {
+        std::array<double, 4> one{};
+        one[i] = 1.0;
+        slopes[i] = interpolate(p, one).gradient;
+    }
+    return centred(second_of(slopes, departures), p);
+}
+
+Bend bend_of(const std::array<Point, 3>& p, const std::array<double, 3>& departures) {
+    std::array<Direction, 3> slopes;
+    for (std::size_t i = 0; i < 3; ++i) {
+        std::array<double, 3> one{};
+        one[i] = 1.0;
+        slopes[i] = interpolate(p, one).gradient;
+    }
+    return centred(second_of(slopes, departures), p);
+}
+
+LeafFunction interpolate(const std::array<Point, 4>& corners, const std::array<double, 4>& values,
+                         const std::array<double, 6>& departures) {
+    return interpolated(corners, values, departures);
+}
+
+LeafFunction interpolate(const std::array<Point, 3>& corners, const std::array<double, 3>& values,
+                         const std::array<double, 3>& departures) {
+    return interpolated(corners, values, departures);
+}
+
 Affine with_mean(const Affine& function, Point centroid, double mean) {
     const double present = function.at(centroid);
     if (!(present > 0.0)) return {Direction(0.0), mean};

@@ -18,7 +18,7 @@ Fields lit_fields(const Solution& s) {
         if (!s.forest.is_leaf(patch)) continue;
         for (std::size_t b = 0; b < lit.bands; ++b) {
             const double a = scattered_of(s, patch, b);
-            const Affine& direct = s.direct.at(patch, b);
+            const Affine direct = s.direct.at(patch, b);
             lit.at(patch, b) = {a * direct.gradient, a * direct.constant};
         }
     }

@@ -52,8 +52,8 @@ Solution first_look(const Enclosure& enclosure, const SolveOptions& options) {
     for (const PatchId p : mesh.patches()) {
         if (!forest.is_leaf(p)) continue;
         for (std::size_t b = 0; b < emptied->bands; ++b) {
-            solution.direct.at(p, b) = leaf_light.direct(p, b);
-            solution.indirect.at(p, b).constant = everywhere[b];
+            solution.direct.set(p, b, leaf_light.direct(p, b));
+            solution.indirect.set(p, b, Affine{Direction(0.0), everywhere[b]});
         }
         solution.patch_error[p.value] = static_cast<float>(direct.error(p));
     }

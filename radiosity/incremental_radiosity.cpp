@@ -163,7 +163,19 @@ void add(double weight, const Affine& function, Affine& sum) {
     sum.constant += weight * function.constant;
 }
 
-void add(const Spectrum& weights, const Fields& fields, Fields& sum) {
+void add(const Spectrum& weights, const std::vector<Bend>& bends, std::vector<Bend>& sum) {
+    sum.resize(bends.size());
+    for (std::size_t k = 0; k < bends.size(); ++k) {
+        const double weight = weights[k % weights.size()];
+        for (std::size_t n = 0; n < 6; ++n) sum[k].second[n] += weight * bends[k].second[n];
+        sum[k].centre = bends[k].centre;
+        sum[k].mean += weight * bends[k].mean;
+    }
+}
+
+void add(const Spectrum& weights, const LeafFields& fields, LeafFields& sum) {
+    add(weights, fields.zone_bend, sum.zone_bend);
+    add(weights, fields.patch_bend, sum.patch_bend);
     for (std::size_t k = 0; k < fields.zone.size(); ++k)
         add(weights[k % fields.bands], fields.zone[k], sum.zone[k]);
     for (std::size_t k = 0; k < fields.patch.size(); ++k)

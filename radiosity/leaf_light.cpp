@@ -19,6 +19,17 @@ Affine LeafLight::direct(Node node, std::size_t band) {
     return interpolate(points, values);
 }
 
+LeafFunction LeafLight::direct_with_mean(ZoneId leaf, std::size_t band) {
+    const LeafFunction* fitted = direct_.fitted(leaf, band);
+    if (fitted && radiance_ == Radiance::quadratic) return *fitted;
+    const Affine between = between_corners(leaf, band);
+    if (!fitted) return {between, {}};
+    const double share = share_of_ends(enclosure_, mesh_.forest(), leaf);
+    return {{fitted->gradient + share * (between.gradient - fitted->gradient),
+             fitted->constant + share * (between.constant - fitted->constant)},
+            {}};
+}
+
 template Affine LeafLight::direct(ZoneId, std::size_t);
 template Affine LeafLight::direct(PatchId, std::size_t);
 

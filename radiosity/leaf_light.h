@@ -21,17 +21,14 @@ class LeafLight {
               Radiance radiance)
         : enclosure_(enclosure), mesh_(mesh), direct_(direct), radiance_(radiance) {}
 
-    // H^A of a leaf, linear between its corners; and so with the leaf's mean kept, of zones that
-    // have been sampled the function nearest to it [W/m^2/sr].
+    // H^A of a leaf, linear between its corners; and so with the leaf's mean kept, of thin zones
+    // that have been sampled the function nearest to it [W/m^2/sr].
     template <class Node>
     Affine direct(Node leaf, std::size_t band);
-    template <class Node>
-    Affine direct_with_mean(Node leaf, std::size_t band) {
-        if constexpr (std::is_same_v<Node, ZoneId>)
-            if (const Affine* fitted = direct_.fitted(leaf, band)) return *fitted;
-        return with_mean(direct(leaf, band), mesh_.forest().centroid(leaf),
-                         direct_.mean(leaf, band));
+    LeafFunction direct_with_mean(PatchId leaf, std::size_t band) {
+        return {between_corners(leaf, band), {}};
     }
+    LeafFunction direct_with_mean(ZoneId leaf, std::size_t band);
 
     // The mean of H^A over a leaf as an element's capacity weighs it: with κ where that varies.
     WeighedMean weighed_direct(PatchId leaf, std::size_t band);
@@ -75,6 +72,12 @@ class LeafLight {
     }
 
   private:
+    template <class Node>
+    Affine between_corners(Node leaf, std::size_t band) {
+        return with_mean(direct(leaf, band), mesh_.forest().centroid(leaf),
+                         direct_.mean(leaf, band));
+    }
+
     const Enclosure& enclosure_;
     ElementMesh& mesh_;
     DirectRefiner& direct_;

@@ -39,8 +39,9 @@ enum class Start {
 
 // What an element holds.
 enum class Radiance {
-    constant,  // its mean
-    linear,    // a linear function with that mean
+    constant,   // its mean
+    linear,     // a linear function with that mean
+    quadratic,  // leaves: a quadratic one, of direct light in zones and indirect light on patches
 };
 
 // An error of an element that is judged, see indicators.h [W/m^2/sr].

@@ -55,6 +55,9 @@ double squares_left(const std::array<double, 4>& corners, const std::array<doubl
 // never one much shorter than the longest, so that slivers do not run away.
 constexpr double shortest_bisected = 0.35;
 
+// Of what a linear function leaves: measured, window_shafts and sun_louvres.
+constexpr double left_by_quadratic = 0.6;
+
 // Of an element's error: a jump that makes up less is not what it has to be cut for.
 constexpr double least_jump = 0.3;
 
@@ -70,12 +73,21 @@ constexpr double felt_by_zones = 1e-7;
 
 }  // namespace
 
+double share_of_ends(const Enclosure& enclosure, const Forest& forest, ZoneId zone) {
+    constexpr double seen_through = 0.25;
+    const double thickness =
+        rough_extinction(enclosure, forest, zone) * forest[zone].longest_edge / seen_through;
+    return std::min(1.0, thickness * thickness);
+}
+
 DirectRefiner::DirectRefiner(const Enclosure& enclosure, ElementMesh& mesh,
-                             const DirectLight& light, const ShadowBoundaries* boundaries)
+                             const DirectLight& light, const ShadowBoundaries* boundaries,
+                             Radiance radiance)
     : enclosure_(enclosure),
       mesh_(mesh),
       light_(light),
-      sampled_(enclosure, mesh.forest(), light),
+      sampled_(enclosure, mesh.forest(), light, radiance == Radiance::quadratic),
+      left_(radiance == Radiance::quadratic ? left_by_quadratic : 1.0),
       bands_(enclosure.bands) {
     if (boundaries) cuts_.emplace(enclosure, *boundaries, mesh, light);
 }
@@ -114,11 +126,13 @@ void DirectRefiner::measure(Node node, std::vector<float>& errors, std::vector<s
         }
     if (at_centroid > 2.0 * worst_edge) split = longest;
     constexpr bool is_zone = std::is_same_v<Node, ZoneId>;
-    if constexpr (is_zone)
-        errors[node.value] =
-            static_cast<float>(fitted_chord_share * left_by_linear(node, centroid));
-    else
+    if constexpr (is_zone) {
+        const double seen =
+            std::lerp(fitted_chord_share, chord_share, share_of_ends(enclosure_, forest, node));
+        errors[node.value] = static_cast<float>(left_ * seen * left_by_linear(node, centroid));
+    } else {
         errors[node.value] = static_cast<float>(departures.value());
+    }
     edges[node.value] = static_cast<std::uint8_t>(4 * split[0] + split[1]);
 }
 

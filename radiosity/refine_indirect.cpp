@@ -46,13 +46,15 @@ std::vector<ZoneId> ancestors(const Forest& forest, std::vector<ZoneId> nodes) {
 }  // namespace
 
 IndirectRefiner::IndirectRefiner(const Enclosure& enclosure, ElementMesh& mesh,
-                                 const Elements& coarse, std::size_t rays, std::uint64_t seed)
+                                 const Elements& coarse, std::size_t rays, std::uint64_t seed,
+                                 Radiance radiance)
     : enclosure_(enclosure),
       mesh_(mesh),
       coarse_(coarse),
       on_surfaces_(rays),
       in_zones_((rays + 3) / 4),
-      seed_(seed) {}
+      seed_(seed),
+      quadratic_(radiance == Radiance::quadratic) {}
 
 template <class Node>
 void IndirectRefiner::add_middles(Node node, std::vector<SampleId>& ids) {
@@ -212,7 +214,8 @@ RefineResult IndirectRefiner::refine(std::vector<Node> frontier, IndirectSources
         extend(forest, sources.fields);
         frontier.swap(next);
     }
-    if constexpr (std::is_same_v<Node, PatchId>) divide(shown, limits);
+    if constexpr (std::is_same_v<Node, PatchId>)
+        if (!quadratic_) divide(shown, limits);
     return result;
 }
 
@@ -293,6 +296,24 @@ Affine IndirectRefiner::linear_part(Node leaf, std::size_t band) {
                             : 0.05 * (values[0] + values[1] + values[2] + values[count - 1]) +
                                   0.8 * q.at(forest.centroid(leaf));
     return with_mean(f, forest.centroid(leaf), std::max(0.0, mean));
+}
+
+LeafFunction IndirectRefiner::function(PatchId leaf, std::size_t band) {
+    if (!quadratic_) return {field(leaf, band), {}};
+    const Forest& forest = mesh_.forest();
+    const auto q = quadratic(settled_above(leaf), band, &SampleSet::indirect);
+    std::array<Point, 3> points;
+    std::array<double, 3> values, departures;
+    for (std::size_t k = 0; k < 3; ++k) {
+        points[k] = forest.point(forest[leaf].corners[k]);
+        values[k] = std::max(0.0, q.at(points[k]));
+    }
+    std::size_t edge = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = i + 1; j < 3; ++j)
+            departures[edge++] =
+                std::max(0.0, q.at(0.5 * (points[i] + points[j]))) - 0.5 * (values[i] + values[j]);
+    return interpolate(points, values, departures);
 }
 
 // Noise has either sign and no mean to be kept: the quadratic's values at the leaf's corners will

@@ -17,40 +17,78 @@ const PointSet& net_points() {
     return set;
 }
 
+// Ten numbers ask for more.
+const PointSet& more_points() {
+    static const PointSet set(64);
+    return set;
+}
+
+// Lagrange functions at the place with these barycentric coordinates, linear and quadratic: of the
+// corners, then of the middles of edges (0, 1), (0, 2), ….
+void lagrange(const std::array<double, 4>& w, Eigen::Vector4d& phi) {
+    phi = Eigen::Map<const Eigen::Vector4d>(w.data());
+}
+
+void lagrange(const std::array<double, 4>& w, Eigen::Matrix<double, 10, 1>& phi) {
+    for (int i = 0, edge = 4; i < 4; ++i) {
+        phi[i] = w[i] * (2.0 * w[i] - 1.0);
+        for (int j = i + 1; j < 4; ++j) phi[edge++] = 4.0 * w[i] * w[j];
+    }
+}
+
+// The function that has these values there.
+LeafFunction function_with(const std::array<Point, 4>& corners, const Eigen::Vector4d& h) {
+    return {interpolate(corners, {h[0], h[1], h[2], h[3]}), {}};
+}
+
+LeafFunction function_with(const std::array<Point, 4>& corners,
+                           const Eigen::Matrix<double, 10, 1>& h) {
+    std::array<double, 6> departures;
+    for (int i = 0, edge = 0; i < 4; ++i)
+        for (int j = i + 1; j < 4; ++j, ++edge)
+            departures[edge] = h[4 + edge] - 0.5 * (h[i] + h[j]);
+    return interpolate(corners, {h[0], h[1], h[2], h[3]}, departures);
+}
+
 // Streams of their own for zones and patches, so that no leaf has the points of another.
 constexpr std::uint64_t zone_seed = 0x7a6f6e65, patch_seed = 0x70617463;
 
 }  // namespace
 
-void SampledMeans::evaluate(ZoneId zone, std::size_t place) {
+template <int functions>
+void SampledMeans::fit(ZoneId zone, std::size_t place) {
+    using Vector = Eigen::Matrix<double, functions, 1>;
+    using Matrix = Eigen::Matrix<double, functions, functions>;
     std::array<Point, 4> corners;
     for (int c = 0; c < 4; ++c) corners[c] = forest_.point(forest_[zone].corners[c]);
     const TetId tet = forest_.base_tet(zone);
     const std::size_t bands = enclosure_.bands;
+    const PointSet& points = functions == 4 ? net_points() : more_points();
     std::vector<double> incident(bands);
-    // Σ_k λ λᵀ, and of each band Σ_k λ H.
-    Eigen::Matrix4d squares = Eigen::Matrix4d::Zero();
-    std::vector<Eigen::Vector4d> products(bands, Eigen::Vector4d::Zero());
-    for (std::size_t k = 0; k < net_points().size(); ++k) {
-        const auto u = net_points()(k, hash_seed(zone_seed, zone.value));
+    // Σ_k φ φᵀ, and of each band Σ_k φ H.
+    Matrix squares = Matrix::Zero();
+    std::vector<Vector> products(bands, Vector::Zero());
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        const auto u = points(k, hash_seed(zone_seed, zone.value));
         const auto w = uniform_in_tet(u[0], u[1], u[2]);
         Point x(0.0);
         for (int c = 0; c < 4; ++c) x += w[c] * corners[c];
         const OpenPlace open = open_place(enclosure_, x, tet);
         light_.at_zone(open.x, open.tet, incident);
-        const Eigen::Map<const Eigen::Vector4d> lambda(w.data());
-        squares += lambda * lambda.transpose();
+        Vector phi;
+        lagrange(w, phi);
+        squares += phi * phi.transpose();
         for (std::size_t b = 0; b < bands; ++b) {
-            zones_.means[place + b] += incident[b] / static_cast<double>(net_points().size());
-            products[b] += incident[b] * lambda;
+            zones_.means[place + b] += incident[b] / static_cast<double>(points.size());
+            products[b] += incident[b] * phi;
         }
     }
-    const Eigen::LDLT<Eigen::Matrix4d> system(squares);
+    const Eigen::LDLT<Matrix> system(squares);
     for (std::size_t b = 0; b < bands; ++b) {
-        const Eigen::Vector4d h = system.solve(products[b]);
-        Affine& fit = fits_[place + b];
-        fit = interpolate(corners, {h[0], h[1], h[2], h[3]});
-        fit.constant += zones_.means[place + b] - fit.at(forest_.centroid(zone));
+        const Vector h = system.solve(products[b]);
+        LeafFunction& fit = fits_[place + b];
+        fit = function_with(corners, h);
+        fit.constant += zones_.means[place + b] - fit.Affine::at(forest_.centroid(zone));
     }
 }
 

@@ -216,8 +216,7 @@ ShadowCuts::Cut ShadowCuts::measure(Node node, const std::vector<std::uint32_t>&
         const double below = share_below(distance);
         double spread = below * (1.0 - below);
         if (sheet.partner != none) spread = std::max(spread, least_spread);
-        const double error = (is_zone ? fitted_chord_share : 1.0) *
-                             std::sqrt(spread * crossing.share) *
+        const double error = (is_zone ? chord_share : 1.0) * std::sqrt(spread * crossing.share) *
                              jump(node, sheet, crossing.section);
         if (error > worst.error) worst = {static_cast<float>(error), crossing.sheet};
     }

@@ -93,7 +93,7 @@ struct ElementValues {
 struct Solution {
     std::shared_ptr<const Enclosure> enclosure;
     Forest forest;
-    Fields direct, indirect;  // of every leaf [W/m^2/sr]
+    LeafFields direct, indirect;  // of every leaf [W/m^2/sr]
     // e of every leaf, where some side or medium settles its temperature in several bands
     // ([node * bands + band]); empty: that of the sides and media [W/m^2/sr].
     struct SettledEmission {

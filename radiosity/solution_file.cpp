@@ -66,6 +66,41 @@ Fields read_fields(const Hdf5Reader& file, const std::string& path, const Forest
     return fields;
 }
 
+// H of bends, where there are any, in the same order; the rest of them follows from the mesh.
+template <class Node>
+void write_bends(Hdf5Writer& file, const std::string& path, const std::vector<Bend>& bends,
+                 const std::vector<Node>& nodes, std::size_t bands) {
+    if (bends.empty()) return;
+    std::vector<double> values;
+    for (const Node node : nodes)
+        for (std::size_t b = 0; b < bands; ++b) {
+            const auto& second = bends[node.value * bands + b].second;
+            values.insert(values.end(), second.begin(), second.end());
+        }
+    file.array(path, values, 6);
+}
+
+template <class Node>
+std::vector<Bend> read_bends(const Hdf5Reader& file, const std::string& path, const Forest& forest,
+                             std::size_t count, const std::vector<Node>& nodes, std::size_t bands) {
+    if (!file.has(path)) return {};
+    const auto values = file.array<double>(path, 6);
+    expect_size(file, path, values.size(), 6 * nodes.size() * bands);
+    std::vector<Bend> bends(count * bands);
+    const double* next = values.data();
+    for (const Node node : nodes) {
+        const auto& ids = forest[node].corners;
+        std::array<Point, std::tuple_size_v<std::remove_cvref_t<decltype(ids)>>> corners;
+        for (std::size_t k = 0; k < corners.size(); ++k) corners[k] = forest.point(ids[k]);
+        for (std::size_t b = 0; b < bands; ++b, next += 6) {
+            std::array<double, 6> second;
+            std::copy(next, next + 6, second.begin());
+            bends[node.value * bands + b] = bend_with(second, corners);
+        }
+    }
+    return bends;
+}
+
 void write_errors(Hdf5Writer& file, const Solution& s, const Elements& elements) {
     std::vector<float> errors;
     for (const PatchId patch : elements.patches) errors.push_back(s.patch_error[patch.value]);
@@ -279,6 +314,10 @@ void write_solution(const std::filesystem::path& path, const Solution& solution,
     write_forest(file, solution.forest);
     file.array(root + "/direct", field_values(solution.direct, elements), 4);
     file.array(root + "/indirect", field_values(solution.indirect, elements), 4);
+    write_bends(file, root + "/direct_bend", solution.direct.zone_bend, elements.zones,
+                elements.bands);
+    write_bends(file, root + "/indirect_bend", solution.indirect.patch_bend, elements.patches,
+                elements.bands);
     write_settled(file, solution, elements);
     write_errors(file, solution, elements);
     write_coarse(file, solution.coarse);
@@ -304,8 +343,12 @@ SolutionFile read_solution(const std::filesystem::path& path) {
     const Elements elements = leaves_in_order(*s.enclosure, s.forest);
     if (file.attribute(root, "leaf_order") != leaf_order(elements))
         file.fail("another version of this program, which numbers leaves in another way, wrote it");
-    s.direct = read_fields(file, root + "/direct", s.forest, elements);
-    s.indirect = read_fields(file, root + "/indirect", s.forest, elements);
+    static_cast<Fields&>(s.direct) = read_fields(file, root + "/direct", s.forest, elements);
+    static_cast<Fields&>(s.indirect) = read_fields(file, root + "/indirect", s.forest, elements);
+    s.direct.zone_bend = read_bends(file, root + "/direct_bend", s.forest, s.forest.zone_count(),
+                                    elements.zones, elements.bands);
+    s.indirect.patch_bend = read_bends(file, root + "/indirect_bend", s.forest,
+                                       s.forest.patch_count(), elements.patches, elements.bands);
     read_settled(file, elements, s);
     read_errors(file, elements, s);
     s.coarse = read_coarse(file, s.forest, s.enclosure->bands);

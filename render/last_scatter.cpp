@@ -140,14 +140,14 @@ class LastScatter {
                 const double emitted = emission_of_whole(s_, arriving_.whole(), zone, medium, k);
                 const double back = media_.given_back(medium, k);
                 const double turning = media_.albedo(medium, k) - back;
-                const radiosity::Affine& h = s_.indirect.at(zone, k);
+                const radiosity::Affine h = s_.indirect.at(zone, k);
                 const double front = (turning * turned.at(in, k) + back) * std::max(0.0, h.at(a));
                 const double behind = (turning * turned.at(out, k) + back) * std::max(0.0, h.at(b));
                 add(seen, emission, k, transmittance * (w.front + w.back) * emitted);
                 add(seen, multiple_scattering, k,
                     transmittance * (w.front * front + w.back * behind));  // (58)
                 const double once = single_of(zone, medium, k, ray.direction);
-                const radiosity::Affine& h_a = s_.direct.at(zone, k);
+                const radiosity::Affine h_a = s_.direct.at(zone, k);
                 const double first = once * std::max(0.0, h_a.at(a));
                 const double last = once * std::max(0.0, h_a.at(b));
                 own.held.insert(own.held.end(), {first, last});

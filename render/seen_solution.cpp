@@ -11,7 +11,7 @@ namespace tyndall::render {
 using mesh::PatchId;
 using mesh::Point;
 using mesh::ZoneId;
-using radiosity::Affine;
+using radiosity::LeafFunction;
 using radiosity::none;
 
 namespace {
@@ -57,16 +57,17 @@ bool SeenSolution::cross(const mesh::Ray& ray, ZoneId zone, double t_in, double 
         else if (b == 0 || optics.extinction[b] != optics.extinction[b - 1])
             w = radiosity::segment_weights(optics.extinction[b] * (t_out - t_in));
         double& transmittance = seen.transmittance[b];
-        const auto gain = [&](Part part, double at_in, double at_out) {
+        const double bent = radiosity::bend_weight(w.transmittance);
+        const auto gain = [&](Part part, const LeafFunction& f) {
             seen.radiance[part * bands_ + b] +=
-                transmittance * (w.front * std::max(0.0, at_in) + w.back * std::max(0.0, at_out));
+                transmittance * optics.albedo[b] *
+                std::max(0.0, w.front * std::max(0.0, f.at(in)) +
+                                  w.back * std::max(0.0, f.at(out)) + bent * f.between(in, out));
         };
-        const double a = optics.albedo[b], emitted = radiosity::emission_of(s_, zone, b);
-        const Affine& direct = s_.direct.at(zone, b);
-        const Affine& indirect = s_.indirect.at(zone, b);
-        gain(emission, emitted, emitted);
-        gain(single_scattering, a * direct.at(in), a * direct.at(out));
-        gain(multiple_scattering, a * indirect.at(in), a * indirect.at(out));
+        seen.radiance[emission * bands_ + b] +=
+            transmittance * (w.front + w.back) * radiosity::emission_of(s_, zone, b);
+        gain(single_scattering, s_.direct.at(zone, b));
+        gain(multiple_scattering, s_.indirect.at(zone, b));
         transmittance *= w.transmittance;
         most = std::max(most, transmittance);
     }

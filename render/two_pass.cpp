@@ -225,7 +225,7 @@ class EvenScene {
         const double share = (t - begin) / (end - begin);
         for (std::size_t b = 0; b < bands_; ++b) {
             // As the closed form has it: linear between what it is at the leaf's two faces.
-            const auto& f = s_.direct.at(at->zone, b);
+            const radiosity::Affine f = s_.direct.at(at->zone, b);
             const double held = (1.0 - share) * std::max(0.0, f.at(ray.at(begin))) +
                                 share * std::max(0.0, f.at(ray.at(end)));
             add(seen, single_scattering, b,

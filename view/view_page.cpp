@@ -6,7 +6,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
+#include <optional>
 
+#include "radiosity/linear_pieces.h"
 #include "radiosity/report_json.h"
 #include "render/line_of_sight.h"
 #include "render/renderers.h"
@@ -228,9 +230,13 @@ std::string report_markup(const radiosity::Solution& solution, const SharpenedPa
 
 }  // namespace
 
-std::string view_page(const radiosity::Solution& solution, const PageOptions& options) {
-    render::refuse_bodies(*solution.enclosure,
+std::string view_page(const radiosity::Solution& whole, const PageOptions& options) {
+    render::refuse_bodies(*whole.enclosure,
                           "which view.html cannot show. Make a picture with tyndall render");
+    std::optional<radiosity::Solution> pieces;  // the page draws linear functions
+    if (radiosity::is_quadratic(whole))
+        pieces = radiosity::linear_pieces(whole, options.sharpen.tolerance);
+    const radiosity::Solution& solution = pieces ? *pieces : whole;
     const SharpenedPatches patches = sharpen_patches(solution, options.sharpen);
     const ViewerArrays arrays = viewer_arrays(solution, patches);
     const PackedArrays packed = pack(arrays);

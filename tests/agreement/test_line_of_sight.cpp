@@ -48,8 +48,10 @@ TEST_CASE("Zones packed for sight show what the forest holds", "[line_of_sight][
     scene.media[0].extinction = {0.2, 0.4, 0.4};
     scene.media[0].albedo = {0.9, 0.8, 0.7};
     scene.bands = 3;
+    const auto radiance = GENERATE(radiosity::Radiance::linear, radiosity::Radiance::quadratic);
     const auto s = radiosity::solve_adaptively(
-        test::enclosed(scene), {.error = 0.1, .max_elements = 4000, .rays = 16, .gather_rays = 16});
+        test::enclosed(scene),
+        {.error = 0.1, .radiance = radiance, .max_elements = 4000, .rays = 16, .gather_rays = 16});
     const render::SightZones packed(s);
     const render::SeenSolution exact(s, 0.0);
     const auto& mesh = s.enclosure->mesh;

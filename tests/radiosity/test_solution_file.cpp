@@ -54,8 +54,9 @@ std::shared_ptr<const Enclosure> box() {
     return std::make_shared<const Enclosure>(std::move(e));
 }
 
-Solution small_solution() {
+Solution small_solution(Radiance radiance = Radiance::linear) {
     SolveOptions options;
+    options.radiance = radiance;
     options.error = 0.2;
     options.element_size = 0.6;
     options.rays = 16;
@@ -67,6 +68,14 @@ Solution small_solution() {
 bool same(const std::vector<Affine>& a, const std::vector<Affine>& b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Affine& f, const Affine& g) {
         return f.gradient == g.gradient && f.constant == g.constant;
+    });
+}
+
+// Of leaves: those of inner nodes are not kept.
+bool same(const std::vector<Bend>& a, const std::vector<Bend>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const Bend& f, const Bend& g) {
+        return f.second == g.second &&
+               (f.second == std::array<double, 6>{} || (f.centre == g.centre && f.mean == g.mean));
     });
 }
 
@@ -127,7 +136,8 @@ void check_same(const Enclosure& a, const Enclosure& b) {
 TEST_CASE("a solution comes back from its file to the last bit") {
     const Folder folder;
     const auto path = folder.path / "solution.vtkhdf";
-    Solution solution = small_solution();
+    const auto radiance = GENERATE(Radiance::linear, Radiance::quadratic);
+    Solution solution = small_solution(radiance);
     solution.report.net_power = {{"walls+", {1.5, -0.1}}};
     write_solution(path, solution, R"({"scene": "title = \"Nebel – ü\""})");
     const auto file = read_solution(path);
@@ -139,6 +149,9 @@ TEST_CASE("a solution comes back from its file to the last bit") {
     CHECK(same(solution.direct.patch, back.direct.patch));
     CHECK(same(solution.indirect.zone, back.indirect.zone));
     CHECK(same(solution.indirect.patch, back.indirect.patch));
+    CHECK(solution.direct.zone_bend.empty() == (radiance == Radiance::linear));
+    CHECK(same(solution.direct.zone_bend, back.direct.zone_bend));
+    CHECK(same(solution.indirect.patch_bend, back.indirect.patch_bend));
     CHECK(solution.zone_error == back.zone_error);
     CHECK(solution.patch_error == back.patch_error);
     CHECK(solution.coarse.radiance == back.coarse.radiance);
