@@ -13,6 +13,7 @@
 #include "exports/vtu_file.h"
 #include "mesh/file_bytes.h"
 #include "mesh/input_error.h"
+#include "radiosity/linear_pieces.h"
 
 namespace tyndall::cli {
 namespace {
@@ -62,6 +63,14 @@ const radiosity::Solution& solved(const ExportSource& source, const ExportOption
     return *source.solution;
 }
 
+// Of a quadratic solution linear pieces, finer than eyes are.
+template <class Write>
+exports::ExportedFiles in_pieces(const radiosity::Solution& solution, Write&& write) {
+    constexpr double tolerance = 0.004;
+    return radiosity::is_quadratic(solution) ? write(radiosity::linear_pieces(solution, tolerance))
+                                             : write(solution);
+}
+
 exports::ExportedFiles make_vtu(const ExportSource& source, const ExportOptions& options) {
     return exports::vtu_file(solved(source, options));
 }
@@ -71,12 +80,16 @@ exports::ExportedFiles make_gmsh(const ExportSource& source, const ExportOptions
 }
 
 exports::ExportedFiles make_obj(const ExportSource& source, const ExportOptions& options) {
-    return exports::coloured_obj(solved(source, options), fs::path(options.out).stem().string(),
-                                 source.settings.tone_map);
+    return in_pieces(solved(source, options), [&](const radiosity::Solution& solution) {
+        return exports::coloured_obj(solution, fs::path(options.out).stem().string(),
+                                     source.settings.tone_map);
+    });
 }
 
 exports::ExportedFiles make_ply(const ExportSource& source, const ExportOptions& options) {
-    return exports::coloured_ply(solved(source, options), source.settings.tone_map);
+    return in_pieces(solved(source, options), [&](const radiosity::Solution& solution) {
+        return exports::coloured_ply(solution, source.settings.tone_map);
+    });
 }
 
 exports::ExportedFiles make_mitsuba(const ExportSource& source, const ExportOptions& options) {

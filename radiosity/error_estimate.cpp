@@ -67,7 +67,7 @@ class SolutionSums {
         elements_ += weight * square(departure);
         gathers_ += weight * square(errors.gathers.at(leaf, b).at(x));
         coarse_ += weight * square(errors.coarse.at(leaf, b).at(x));
-        const double h = s.direct.at(leaf, b).at(x) + s.indirect.at(leaf, b).at(x);
+        const double h = s.direct.at(leaf, b).Affine::at(x) + s.indirect.at(leaf, b).Affine::at(x);
         whole_ += capacity * square(emission_of(s, leaf, b) - split + a * h);
     }
     ErrorParts parts() const {

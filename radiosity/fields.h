@@ -1,4 +1,4 @@
-// Linear functions on the nodes of the forest: what an element holds beyond its mean.
+// Linear and quadratic functions on the nodes of the forest: what an element holds beyond its mean.
 #pragma once
 
 #include <array>

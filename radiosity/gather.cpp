@@ -70,19 +70,14 @@ class RadianceWalk {
                 __builtin_prefetch(s_.sources(zone));  // a leaf's are needed with it
                 return node.longest_edge < s_.detail_ * (travelled_ + t);
             },
-            [&](std::uint32_t zone, const PackedZone& node, float in, float out) {
-                // A linear fit may dip below zero in a leaf's corner; radiance does not. An
-                // ancestor's may dip where it stands for lit and dark leaves, and be right in the
-                // mean.
-                const float least =
-                    node.child == none ? 0.0f : -std::numeric_limits<float>::infinity();
-                return !(out > in) || gain(zone, extinction, in, out, least);
+            [&](std::uint32_t zone, const PackedZone&, float in, float out) {
+                return !(out > in) || gain(zone, extinction, in, out);
             });
     }
 
   private:
-    // `least`: below which J is not taken.
-    bool gain(std::uint32_t zone, const float* extinction, float t_in, float t_out, float least) {
+    // A function that fits may dip below zero at an end, and be right in the mean.
+    bool gain(std::uint32_t zone, const float* extinction, float t_in, float t_out) {
         float most = 0.0f;
         const GatherScene::Source* sources = s_.sources(zone);
         SegmentWeights w{};
@@ -96,8 +91,8 @@ class RadianceWalk {
             else if (b == 0 || extinction[b] != extinction[b - 1])
                 w = segment_weights(extinction[b] * (t_out - t_in));
             float& transmittance = transmittance_[b];
-            radiance_[b] += transmittance * (w.front * std::max(least, start + t_in * slope) +
-                                             w.back * std::max(least, start + t_out * slope));
+            radiance_[b] += transmittance *
+                            (w.front * (start + t_in * slope) + w.back * (start + t_out * slope));
             transmittance *= static_cast<float>(w.transmittance);
             most = std::max(most, transmittance);
         }

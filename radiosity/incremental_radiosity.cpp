@@ -167,6 +167,7 @@ void add(const Spectrum& weights, const std::vector<Bend>& bends, std::vector<Be
     sum.resize(bends.size());
     for (std::size_t k = 0; k < bends.size(); ++k) {
         const double weight = weights[k % weights.size()];
+        if (bends[k].second == std::array<double, 6>{}) continue;  // it has no centre either
         for (std::size_t n = 0; n < 6; ++n) sum[k].second[n] += weight * bends[k].second[n];
         sum[k].centre = bends[k].centre;
         sum[k].mean += weight * bends[k].mean;

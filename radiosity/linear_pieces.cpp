@@ -33,6 +33,9 @@ class Divider {
         extend(pieces_.forest, pieces_.indirect);
         for (std::size_t p = 0; p < of_.size(); ++p)
             if (pieces_.forest.is_leaf(PatchId(p))) fill(PatchId(p), of_[p]);
+        // The mesh of the last pass is the one that is shown.
+        pieces_.report.patches += made_;
+        if (!pieces_.report.passes.empty()) pieces_.report.passes.back().patches += made_;
         extend(pieces_.patch_error, 1);
         extend(pieces_.patch_direct_error, 1);
         if (!pieces_.settled.patch.empty()) extend(pieces_.settled.patch, bands_);
@@ -55,7 +58,8 @@ class Divider {
             const Point x = whole_.forest.centroid(patch);
             for (std::size_t b = 0; b < bands_; ++b)
                 sum += a * scatter_of(whole_, patch, b) / double(bands_) *
-                       (whole_.direct.at(patch, b).at(x) + whole_.indirect.at(patch, b).at(x));
+                       (whole_.direct.at(patch, b).Affine::at(x) +
+                        whole_.indirect.at(patch, b).Affine::at(x));
         }
         return area > 0.0 ? sum / area : 0.0;
     }
@@ -76,6 +80,7 @@ class Divider {
     void divide(PatchId piece, int levels) {
         const PatchId leaf = of_[piece.value];
         if (levels == 0 || !(departure(piece, leaf) > limit_)) return;
+        ++made_;
         const auto [i, j] = pieces_.forest.longest_edge(piece);
         pieces_.forest.bisect(piece, i, j);
         of_.resize(pieces_.forest.patch_count(), leaf);
@@ -109,6 +114,7 @@ class Divider {
     Solution pieces_;
     std::vector<PatchId> of_;  // the leaf that a piece is of, by node
     double limit_ = 0.0;       // [W/m^2/sr]
+    std::size_t made_ = 0;     // bisections
 };
 
 }  // namespace

@@ -31,9 +31,8 @@ struct RefineResult {
 // Purpose: how much it counts what direct light is at the ends of a zone, beside its mean. One that
 //   is thin is seen through, and a function that fits best in the mean is best. From a thick one
 //   most light comes from its near end; there light that decays across it is not nearly linear.
-// Equation: min(1, (κ h / τ)²), h the longest edge, τ = 0.25: measured, E at the bottom of the
-// cubes
-//   of tests/reference (4def) is 1.4 % too low with zones of 0.4 that are taken for thin.
+// Equation: min(1, (κ h / τ)²), h the longest edge, τ = 0.25. Measured: E at the bottom of cubes
+//   (tests/reference, 4def) is 1.4 % too low with zones of 0.4 that are taken for thin.
 double share_of_ends(const Enclosure& enclosure, const Forest& forest, ZoneId zone);
 
 // Direct light at elements: how far linear interpolation between corners is from the value in the
@@ -178,11 +177,10 @@ class IndirectRefiner {
     // One throw of the noise in that function, from the half differences of its samples.
     Affine noise(ZoneId zone, std::size_t band);
     Affine noise(PatchId patch, std::size_t band);
-    // Departure from linear found at the settled element, mean over bands [W/m^2/sr].
-    template <class Node>
-    double error(Node leaf) const {
-        return settled_of(leaf).errors[settled_above(leaf).value];
-    }
+    // Error of a leaf: what is left of the departure from linear found at the settled element; all
+    // of it where a patch is linear and has no leaves that show more, mean over bands [W/m^2/sr].
+    double error(ZoneId leaf) const { return zones_.errors[settled_above(leaf).value]; }
+    double error(PatchId leaf) const;
 
   private:
     // By node: where the descent ended, and the error left there.

@@ -298,6 +298,12 @@ Affine IndirectRefiner::linear_part(Node leaf, std::size_t band) {
     return with_mean(f, forest.centroid(leaf), std::max(0.0, mean));
 }
 
+double IndirectRefiner::error(PatchId leaf) const {
+    const PatchId settled = settled_above(leaf);
+    const double error = patches_.errors[settled.value];
+    return settled == leaf && !quadratic_ ? error / remaining : error;
+}
+
 LeafFunction IndirectRefiner::function(PatchId leaf, std::size_t band) {
     if (!quadratic_) return {field(leaf, band), {}};
     const Forest& forest = mesh_.forest();

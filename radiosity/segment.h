@@ -29,8 +29,9 @@ inline SegmentWeights segment_weights(double tau) {
 // The same for the part of a quadratic J that is not linear: what it gains, where it is 1 in the
 // middle and 0 at both ends, 4 ∫₀^τ e^{−t} (t/τ) (1 − t/τ) dt. Where κ varies, so of the optical
 // length: what a bend is worth there is little.
-inline double bend_weight(double transmittance) {
-    const double tau = -std::log(std::max(transmittance, 1e-300));
+inline double bend_weight(const SegmentWeights& w) {
+    // Of a segment that nothing comes through w.back is 1/τ.
+    const double tau = w.transmittance > 1e-12 ? -std::log(w.transmittance) : 1.0 / w.back;
     // The closed form loses digits; the series is good to 1e-9 here.
     if (tau < 0.1)
         return 4.0 * tau *

@@ -7,6 +7,7 @@
 #include "mesh/file_bytes.h"
 #include "mesh/input_error.h"
 #include "radiosity/leaves_in_order.h"
+#include "radiosity/linear_pieces.h"
 #include "radiosity/report_json.h"
 #include "radiosity/solution_parts.h"
 
@@ -308,7 +309,9 @@ void write_solution(const std::filesystem::path& path, const Solution& solution,
     Hdf5Writer file;
     write_grid(file, solution);
     file.group(root);
-    file.attribute(root, "format", std::vector<std::int64_t>{solution_format});
+    file.attribute(
+        root, "format",
+        std::vector<std::int64_t>{is_quadratic(solution) ? solution_format : linear_format});
     file.attribute(root, "leaf_order", std::vector<std::int64_t>{leaf_order(elements)});
     write_enclosure(file, enclosure);
     write_forest(file, solution.forest);
@@ -332,9 +335,9 @@ SolutionFile read_solution(const std::filesystem::path& path) {
     const Hdf5Reader file(path);
     if (!file.has(root)) file.fail("it holds no Tyndall solution; another program wrote it");
     const auto format = file.attribute(root, "format");
-    if (format != solution_format)
-        file.fail(fmt::format("its format is {}, and this program reads format {}", format,
-                              solution_format));
+    if (format != solution_format && format != linear_format)
+        file.fail(fmt::format("its format is {}, and this program reads format {} or {}", format,
+                              solution_format, linear_format));
     if (!file.sealed()) file.fail("it is cut short: its last bytes are missing");
     SolutionFile result;
     Solution& s = result.solution;

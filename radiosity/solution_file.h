@@ -15,8 +15,9 @@
 namespace tyndall::radiosity {
 
 // Raised whenever a file of before would be read as something else: what it holds, or the numbering
-// of leaves that its arrays rely on, has changed.
-inline constexpr int solution_format = 2;
+// of leaves that its arrays rely on, has changed. Files of linear functions are as they were before
+// there were quadratic ones.
+inline constexpr int solution_format = 3, linear_format = 2;
 
 // Purpose: a solution as a file, which replaces an old one when it is complete. The same solution
 //   gives the same bytes: what the computation cost is not in it.

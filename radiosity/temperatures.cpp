@@ -27,6 +27,17 @@ Spectrum incident_at(const Solution& s, Node node, Point x) {
     return incident;
 }
 
+// Of linear parts: in the centroid they have the mean.
+template <class Node>
+Spectrum mean_incident(const Solution& s, Node node) {
+    const Point x = s.forest.centroid(node);
+    Spectrum incident(s.enclosure->bands);
+    for (std::size_t b = 0; b < incident.size(); ++b)
+        incident[b] = std::max(
+            0.0, s.direct.at(node, b).Affine::at(x) + s.indirect.at(node, b).Affine::at(x));
+    return incident;
+}
+
 // R of (44).
 double taken_up(double source, const Spectrum& absorbs, std::span<const double> incident) {
     for (std::size_t b = 0; b < absorbs.size(); ++b) source += absorbs[b] * incident[b];
@@ -92,14 +103,14 @@ double temperature_of(const Solution& s, PatchId patch) {
     const auto of = side_of(*s.enclosure, s.forest, patch);
     if (of == none) return std::numeric_limits<double>::quiet_NaN();
     return temperature_of(s.enclosure->spectral, s.enclosure->sides[of], emission_in(s, patch),
-                          incident_at(s, patch, s.forest.centroid(patch)));
+                          mean_incident(s, patch));
 }
 
 double temperature_of(const Solution& s, ZoneId zone) {
     const auto of = medium_of(*s.enclosure, s.forest, zone);
     if (of == none) return std::numeric_limits<double>::quiet_NaN();
     return temperature_of(s.enclosure->spectral, s.enclosure->media[of], emission_in(s, zone),
-                          incident_at(s, zone, s.forest.centroid(zone)));
+                          mean_incident(s, zone));
 }
 
 double temperature_at(const Solution& s, PatchId patch, Point x) {

@@ -30,7 +30,7 @@ double temperature_there(const SpectralModel& model, const MediumOptics& medium,
 // temperature_of a leaf, at its centroid; NaN where there is no medium, or a side that faces none.
 double temperature_of(const Solution& solution, PatchId patch);
 double temperature_of(const Solution& solution, ZoneId zone);
-// temperature_there, with the leaf's linear H at the point.
+// temperature_there, with the leaf's H at the point.
 double temperature_at(const Solution& solution, PatchId patch, Point x);
 double temperature_at(const Solution& solution, ZoneId zone, Point x);
 

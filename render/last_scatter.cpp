@@ -148,8 +148,7 @@ class LastScatter {
                     transmittance * (w.front * front + w.back * behind));  // (58)
                 const double once = single_of(zone, medium, k, ray.direction);
                 const radiosity::Affine h_a = s_.direct.at(zone, k);
-                const double first = once * std::max(0.0, h_a.at(a));
-                const double last = once * std::max(0.0, h_a.at(b));
+                const double first = once * h_a.at(a), last = once * h_a.at(b);
                 own.held.insert(own.held.end(), {first, last});
                 add(seen, single_scattering, k, transmittance * (w.front * first + w.back * last));
                 transmittance *= w.transmittance;

@@ -18,14 +18,14 @@ struct RenderOptions {
     // neighbours, by no more than this share of it, the middle's one ray is enough; 0: never [-].
     double contrast = 0.01;
     // line_of_sight: rays a pixel, spread over its samples, that gather indirect light right where
-    // a surface is seen; 0: the patches' own linear functions are shown.
+    // a surface is seen; 0: the patches' own functions are shown.
     std::size_t final_gather = 0;
     // Direct light on a surface is computed anew in closed form at what a ray hits, wherever the
-    // patch's own linear function may be off by more than this share of the surfaces' mean
+    // patch's own function may be off by more than this share of the surfaces' mean
     // radiance.
     double direct_tolerance = 0.002;  // [-]
     // What a leaf of a medium scatters once is looked at on every fourth ray (line_of_sight),
-    // wherever the leaf's own linear function may be off on that ray by more than this share of
+    // wherever the leaf's own function may be off on that ray by more than this share of
     // the mean radiance of all elements; as_elements_hold: nowhere.
     double scattering_tolerance = 0.002;  // [-]
     // Of methods that draw lots (last_scatter, two_pass, path_traced): go on, whatever `samples`

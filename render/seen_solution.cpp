@@ -26,7 +26,8 @@ double mean_of_surfaces(const radiosity::Solution& s) {
         const Point centroid = s.forest.centroid(patch);
         for (std::size_t b = 0; b < s.enclosure->bands; ++b)
             sum += a * radiosity::scatter_of(s, patch, b) *
-                   (s.direct.at(patch, b).at(centroid) + s.indirect.at(patch, b).at(centroid));
+                   (s.direct.at(patch, b).Affine::at(centroid) +
+                    s.indirect.at(patch, b).Affine::at(centroid));
         area += a * static_cast<double>(s.enclosure->bands);
     }
     return area > 0.0 ? sum / area : 0.0;
@@ -57,12 +58,11 @@ bool SeenSolution::cross(const mesh::Ray& ray, ZoneId zone, double t_in, double 
         else if (b == 0 || optics.extinction[b] != optics.extinction[b - 1])
             w = radiosity::segment_weights(optics.extinction[b] * (t_out - t_in));
         double& transmittance = seen.transmittance[b];
-        const double bent = radiosity::bend_weight(w.transmittance);
+        const double bent = s_.direct.zone_bend.empty() ? 0.0 : radiosity::bend_weight(w);
         const auto gain = [&](Part part, const LeafFunction& f) {
             seen.radiance[part * bands_ + b] +=
                 transmittance * optics.albedo[b] *
-                std::max(0.0, w.front * std::max(0.0, f.at(in)) +
-                                  w.back * std::max(0.0, f.at(out)) + bent * f.between(in, out));
+                std::max(0.0, w.front * f.at(in) + w.back * f.at(out) + bent * f.between(in, out));
         };
         seen.radiance[emission * bands_ + b] +=
             transmittance * (w.front + w.back) * radiosity::emission_of(s_, zone, b);

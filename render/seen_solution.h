@@ -1,5 +1,5 @@
-// What a ray sees of a solution: zones with linear J, the patch at its end; and pictures as means
-// of rays, with a layer for each part.
+// What a ray sees of a solution: zones with linear or quadratic J, the patch at its end; and
+// pictures as means of rays, with a layer for each part.
 #pragma once
 
 #include <functional>
@@ -30,8 +30,8 @@ class SeenSolution {
                  AtMirrors at_mirrors = AtMirrors::scatter);
 
     // Adds what a ray gains between two distances in a leaf of a medium, in closed form for J
-    // linear there (4), and takes the leaf's transmittance. False where so little is left that the
-    // rest does not show.
+    // linear or quadratic there (4), (68), and takes the leaf's transmittance. False where so
+    // little is left that the rest does not show.
     bool cross(const mesh::Ray& ray, mesh::ZoneId zone, double t_in, double t_out,
                Seen& seen) const;
 

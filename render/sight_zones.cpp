@@ -106,15 +106,14 @@ bool SightZones::gain(const SightRay& ray, std::uint32_t zone, TetId tet, float 
             w = radiosity::segment_weights(optics.extinction[b] * double(t_out - t_in));
         double& transmittance = seen.transmittance[b];
         const double front = transmittance * w.front, back = transmittance * w.back;
-        // A fit may dip below zero in a leaf's corner; radiance does not.
+        // A function that fits may dip below zero at an end; what is gained does not.
         const auto gain = [&](Part part, const float* f, const BentAlong& bent,
                               double bend_weight) {
             const float start = dot(f, ray.packed.origin) + f[3];
             const float slope = dot(f, ray.packed.direction);
-            const double gained =
-                std::max(0.0, front * std::max(0.0f, start + t_in * slope + bent.in) +
-                                  back * std::max(0.0f, start + t_out * slope + bent.out) +
-                                  bend_weight * bent.between);
+            const double gained = std::max(0.0, front * (start + t_in * slope + bent.in) +
+                                                    back * (start + t_out * slope + bent.out) +
+                                                    bend_weight * bent.between);
             seen.radiance[part * bands_ + b] += gained;
             return gained;
         };
@@ -122,7 +121,7 @@ bool SightZones::gain(const SightRay& ray, std::uint32_t zone, TetId tet, float 
         const double held =
             bent_ ? gain(single_scattering, of_band,
                          bent_along(of_band + linear_numbers, ray.packed, t_in, t_out),
-                         transmittance * radiosity::bend_weight(w.transmittance))
+                         transmittance * radiosity::bend_weight(w))
                   : gain(single_scattering, of_band, {}, 0.0);
         if (scattered)  // (59)
             seen.radiance[single_scattering * bands_ + b] +=

@@ -31,9 +31,10 @@ double mean_radiance(const radiosity::Solution& s) {
     const auto add = [&](auto leaf, double size) {
         const Point x = s.forest.centroid(leaf);
         for (std::size_t b = 0; b < e.bands; ++b)
-            sum += size * (radiosity::emission_of(s, leaf, b) +
-                           radiosity::scatter_of(s, leaf, b) *
-                               (s.direct.at(leaf, b).at(x) + s.indirect.at(leaf, b).at(x)));
+            sum +=
+                size * (radiosity::emission_of(s, leaf, b) +
+                        radiosity::scatter_of(s, leaf, b) * (s.direct.at(leaf, b).Affine::at(x) +
+                                                             s.indirect.at(leaf, b).Affine::at(x)));
         capacity += size * static_cast<double>(e.bands);
     };
     for (std::size_t p = 0; p < s.forest.patch_count(); ++p)

@@ -10,7 +10,7 @@
 
 namespace tyndall::render {
 
-// Purpose: what a leaf's linear H^A leaves out along one ray. Rays that graze the edge of a beam
+// Purpose: what a leaf's H^A leaves out along one ray. Rays that graze the edge of a beam
 //   cross a dozen leaves that straddle it, all wrong in the same way, and neighbours among them
 //   each in its own: they would stand in the picture as lines.
 // Equation: I = a ∫ κ T H^A dt over the chord of a leaf, with H^A evaluated on it, linear between

@@ -90,7 +90,7 @@ void TurnedSources::choose_lit() {
         const std::uint32_t medium = medium_of(lit.leaf);
         for (std::size_t b = 0; b < bands_; ++b)
             lit.weight += whole_.media[medium].extinction[b] * media_.albedo(medium, b) *
-                          std::max(0.0, s_.direct.at(lit.leaf, b).at(s_.forest.centroid(lit.leaf)));
+                          std::max(0.0, direct_.at(lit.leaf, b).at(s_.forest.centroid(lit.leaf)));
         lit.weight *= s_.forest.volume(lit.leaf);
         sum += lit.weight;
     }
@@ -156,7 +156,7 @@ void TurnedSources::look_from_leaves(const radiosity::DirectLight& whole,
         const auto corners = s_.forest[zone].corners;
         for (std::size_t b = 0; b < bands_; ++b)
             if (std::ranges::any_of(corners, [&](mesh::VertexId v) {
-                    return s_.direct.at(zone, b).at(s_.forest.point(v)) > 0.0;
+                    return direct_.at(zone, b).at(s_.forest.point(v)) > 0.0;
                 })) {
                 lit.push_back(zone);
                 break;

@@ -156,7 +156,7 @@ class EvenScene {
                             : optics.varying[k].weights(ray.origin, ray.direction, in, out);
                     double& transmittance = seen.transmittance[k];
                     const auto held = [&](const radiosity::Affine& f) {
-                        return w.front * std::max(0.0, f.at(a)) + w.back * std::max(0.0, f.at(b));
+                        return w.front * f.at(a) + w.back * f.at(b);
                     };
                     add(seen, emission, k,
                         transmittance * (w.front + w.back) * radiosity::emission_of(s_, zone, k));
@@ -226,8 +226,7 @@ class EvenScene {
         for (std::size_t b = 0; b < bands_; ++b) {
             // As the closed form has it: linear between what it is at the leaf's two faces.
             const radiosity::Affine f = s_.direct.at(at->zone, b);
-            const double held = (1.0 - share) * std::max(0.0, f.at(ray.at(begin))) +
-                                share * std::max(0.0, f.at(ray.at(end)));
+            const double held = (1.0 - share) * f.at(ray.at(begin)) + share * f.at(ray.at(end));
             add(seen, single_scattering, b,
                 weight * transmittance[b] * media_.extinction(medium, b, x) *
                     media_.albedo(medium, b) * (incident[b] - held));

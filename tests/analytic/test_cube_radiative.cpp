@@ -169,6 +169,19 @@ TEST_CASE("Cubes with a hot wall: M and E at points and in the mean", "[solution
     }
 }
 
+TEST_CASE("A cube with a hot wall, of quadratic zones", "[solution][quadratic][long]") {
+    const auto file = test::reference("4def_cube_rte");
+    const auto cases = cases_of(file, "cube_black_tau2_omega1");
+    const auto solution =
+        solve_adaptively(std::make_shared<const Enclosure>(make_enclosure(cube_scene(cases[0]))),
+                         {.refinement = Refinement::uniform,
+                          .radiance = Radiance::quadratic,
+                          .element_size = 0.25,
+                          .rays = 64,
+                          .gather_rays = 64});
+    check(solution, cases);
+}
+
 TEST_CASE("A thick cube with a hot wall, refined where light bends", "[solution][long]") {
     const auto file = test::reference("4def_cube_rte");
     const auto cases = cases_of(file, "cube_black_tau5_omega1");

@@ -103,9 +103,6 @@ struct ViewerWalk {
             const float* row = &a.rows[2 * (a.zone_row[zone] * a.bands + b)];
             const auto direct = function(a.zone_direct, zone * a.bands + b);
             const auto indirect = function(a.zone_indirect, zone * a.bands + b);
-            const auto source = [&](const glm::dvec3& x) {
-                return row[1] + std::max(0.0, at(direct, x)) + std::max(0.0, at(indirect, x));
-            };
             radiosity::SegmentWeights w = radiosity::segment_weights(row[0] * length);
             if (!a.zone_extinction.empty()) {
                 const auto kappa = function(a.zone_extinction, zone * a.bands + b);
@@ -113,7 +110,11 @@ struct ViewerWalk {
                 w = radiosity::segment_weights(0.125 * length * (3.0 * k0 + k1),
                                                0.125 * length * (k0 + 3.0 * k1));
             }
-            sum[b] += through[b] * (w.front * source(in) + w.back * source(out));
+            const auto gained = [&](const glm::dvec4& f) {
+                return std::max(0.0, w.front * at(f, in) + w.back * at(f, out));
+            };
+            sum[b] +=
+                through[b] * ((w.front + w.back) * row[1] + gained(direct) + gained(indirect));
             through[b] *= w.transmittance;
         }
     }

@@ -19,7 +19,8 @@ from verdicts import check, skip  # noqa: E402
 
 # Of the larger of a pixel's radiance and a thousandth of the mean. Single precision places a ray
 # on a leaf's face to 1e-7 of the room, and J changes by its own size across the smallest leaves,
-# a hundredth of the room: 1e-5; ten times that for grazing rays.
+# a hundredth of the room: 1e-5; ten times that for grazing rays, which cross faces at which the
+# functions that fit best jump. Of a pixel's brightest channel.
 WORST = 1e-4
 FLAGS = ["--headless", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
          "--disable-dev-shm-usage", "--disable-background-networking",

@@ -51,7 +51,10 @@ function placeRow(meta, x, t) {
 function describeZone(walker, meta, zone, x, t) {
   const {zones, zoneStride, zoneVolume, zoneMedium} = walker.t, at = 4 * zoneStride * zone;
   const shown = zones[at + 21];
-  const source = walker.sourceAt(zone, x), of = (f) => figures(source.map(f));
+  // A function that fits may dip below zero at a corner; light does not.
+  const source = walker.sourceAt(zone, x).map(
+      (s) => ({...s, direct: Math.max(0, s.direct), indirect: Math.max(0, s.indirect)}));
+  const of = (f) => figures(source.map(f));
   return {
     what: `zone ${shown} of ${meta.names.media[zoneMedium[zone]].name}`,
     kind: 'zone',

@@ -109,10 +109,11 @@ bool cross_zone(int base, int row, vec3 d, float t_in, float t_out) {
 #else
         vec3 w = segment_weights(optics.x * (t_out - t_in));
 #endif
-        vec2 single = max(vec2(at(direct, x_in), at(direct, x_out)), 0.0);
-        vec2 multiple = max(vec2(at(indirect, x_in), at(indirect, x_out)), 0.0);
-        vec2 source = layers[0] * vec2(optics.y) + layers[3] * single + layers[4] * multiple;
-        sum[b] += through[b] * dot(w.xy, source);
+        // A function that fits may dip below zero at an end; what is gained does not.
+        float single = max(0.0, dot(w.xy, vec2(at(direct, x_in), at(direct, x_out))));
+        float multiple = max(0.0, dot(w.xy, vec2(at(indirect, x_in), at(indirect, x_out))));
+        sum[b] += through[b] * (layers[0] * optics.y * (w.x + w.y) + layers[3] * single +
+                                layers[4] * multiple);
         through[b] *= w.z;
         most = max(most, through[b]);
     }

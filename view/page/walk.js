@@ -119,8 +119,8 @@ class Walker {
       source.push({
         extinction: this.extinctionAt(zone, row, b, x),
         emission: rows[4 * (row * bands + b) + 1],
-        direct: Math.max(0, this.plane(zones, at, x)),
-        indirect: Math.max(0, this.plane(zones, at + 4, x))
+        direct: this.plane(zones, at, x),
+        indirect: this.plane(zones, at + 4, x)
       });
     }
     return source;
@@ -153,20 +153,22 @@ class Walker {
   // Radiance along a ray [band], as the picture shows it.
   radiance(eye, d, rope, t, layers, medium) {
     const bands = this.t.bands, sum = new Array(bands).fill(0), through = new Array(bands).fill(1);
-    const on = (s) =>
-        s.map((p) => layers[0] * p.emission + layers[3] * p.direct + layers[4] * p.indirect);
+    const gained = (w, front, back) => {
+      const part = (name) => Math.max(0, w[0] * front[name] + w[1] * back[name]);
+      return layers[0] * part('emission') + layers[3] * part('direct') +
+          layers[4] * part('indirect');
+    };
     const place = (s) => [0, 1, 2].map((k) => eye[k] + s * d[k]);
     const end = this.follow(eye, d, rope, t, 0, FAR, (zone, row, tIn, tOut) => {
       if (!medium) return true;
       const first = this.sourceAt(zone, place(tIn)), last = this.sourceAt(zone, place(tOut));
-      const front = on(first), back = on(last);
       for (let b = 0; b < bands; ++b) {
         const kIn = first[b].extinction, kOut = last[b].extinction, quarter = (tOut - tIn) / 4;
         const half = 0.5 * (kIn + kOut);
         const w = this.t.varying ?
             segmentWeightsOfHalves(quarter * (kIn + half), quarter * (half + kOut)) :
             segmentWeights(kIn * (tOut - tIn));
-        sum[b] += through[b] * (w[0] * front[b] + w[1] * back[b]);
+        sum[b] += through[b] * gained(w, first[b], last[b]);
         through[b] *= w[2];
       }
       return Math.max(...through) > 1e-7;
