@@ -45,7 +45,7 @@ Solution collect_solution(const LitLeaves& of, const CoarseSolution& coarse,
             // Zones are seen as integrals along rays, where the mean counts; patches are seen as
             // they are, where a jump from one to the next would show.
             if constexpr (std::is_same_v<decltype(node), ZoneId>)
-                solution.direct.set(node, b, light.direct_held(node, b));
+                solution.direct.set(node, b, light.direct_with_mean(node, b));
             else
                 solution.direct.set(node, b, light.direct(node, b));
             solution.indirect.set(node, b, indirect(node, b));

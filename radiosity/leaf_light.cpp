@@ -19,19 +19,17 @@ Affine LeafLight::direct(Node node, std::size_t band) {
     return interpolate(points, values);
 }
 
-Affine LeafLight::direct_with_mean(ZoneId leaf, std::size_t band) {
+LeafFunction LeafLight::direct_with_mean(ZoneId leaf, std::size_t band) {
     const Affine between = between_corners(leaf, band);
     const LeafFunction* fitted = direct_.fitted(leaf, band);
-    if (!fitted) return between;
+    if (!fitted) return {between, {}};
     const double share = share_of_ends(enclosure_, mesh_.forest(), leaf);
-    return {fitted->gradient + share * (between.gradient - fitted->gradient),
-            fitted->constant + share * (between.constant - fitted->constant)};
-}
-
-LeafFunction LeafLight::direct_held(ZoneId leaf, std::size_t band) {
-    const LeafFunction* fitted = direct_.fitted(leaf, band);
-    if (fitted && radiance_ == Radiance::quadratic) return *fitted;
-    return {direct_with_mean(leaf, band), {}};
+    LeafFunction f = *fitted;
+    f.gradient += share * (between.gradient - f.gradient);
+    f.constant += share * (between.constant - f.constant);
+    for (double& second : f.bend.second) second *= 1.0 - share;
+    f.bend.mean *= 1.0 - share;
+    return f;
 }
 
 template Affine LeafLight::direct(ZoneId, std::size_t);

@@ -22,13 +22,11 @@ class LeafLight {
         : enclosure_(enclosure), mesh_(mesh), direct_(direct), radiance_(radiance) {}
 
     // H^A of a leaf, linear between its corners; and so with the leaf's mean kept, of thin zones
-    // that have been sampled the function nearest to it [W/m^2/sr].
+    // that have been sampled the function nearest to it, linear or quadratic [W/m^2/sr].
     template <class Node>
     Affine direct(Node leaf, std::size_t band);
     Affine direct_with_mean(PatchId leaf, std::size_t band) { return between_corners(leaf, band); }
-    Affine direct_with_mean(ZoneId leaf, std::size_t band);
-    // What a zone is to hold: that, or the quadratic function nearest to it.
-    LeafFunction direct_held(ZoneId leaf, std::size_t band);
+    LeafFunction direct_with_mean(ZoneId leaf, std::size_t band);
 
     // The mean of H^A over a leaf as an element's capacity weighs it: with κ where that varies.
     WeighedMean weighed_direct(PatchId leaf, std::size_t band);
