@@ -27,8 +27,12 @@ LeafFunction LeafLight::direct_with_mean(ZoneId leaf, std::size_t band) {
     LeafFunction f = *fitted;
     f.gradient += share * (between.gradient - f.gradient);
     f.constant += share * (between.constant - f.constant);
+    if (radiance_ != Radiance::quadratic) return f;
+    std::array<Point, 4> corners;
+    for (std::size_t k = 0; k < 4; ++k)
+        corners[k] = mesh_.forest().point(mesh_.forest()[leaf].corners[k]);
     for (double& second : f.bend.second) second *= 1.0 - share;
-    f.bend.mean *= 1.0 - share;
+    f.bend = bend_with(f.bend.second, corners);  // as files have it, to the last bit
     return f;
 }
 
