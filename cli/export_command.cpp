@@ -63,7 +63,7 @@ const radiosity::Solution& solved(const ExportSource& source, const ExportOption
     return *source.solution;
 }
 
-// Of a quadratic solution linear pieces, finer than eyes are.
+// Of a quadratic solution linear pieces, as many as a linear one has to show the same light.
 template <class Write>
 exports::ExportedFiles in_pieces(const radiosity::Solution& solution, Write&& write) {
     constexpr double tolerance = 0.004;

@@ -7,8 +7,6 @@
 namespace tyndall::radiosity {
 namespace {
 
-constexpr int most_levels = 12;
-
 std::array<Point, 3> corners_of(const Forest& forest, PatchId patch) {
     const auto& ids = forest[patch].corners;
     return {forest.point(ids[0]), forest.point(ids[1]), forest.point(ids[2])};
@@ -16,14 +14,14 @@ std::array<Point, 3> corners_of(const Forest& forest, PatchId patch) {
 
 class Divider {
   public:
-    Divider(const Solution& whole, double tolerance)
+    Divider(const Solution& whole, double tolerance, int levels)
         : whole_(whole), bands_(whole.enclosure->bands), pieces_(whole), of_(count()) {
         limit_ = tolerance * mean_reflected();
         for (std::size_t p = 0; p < count(); ++p) of_[p] = PatchId(p);
         for (std::size_t p = 0; p < count(); ++p)
             if (whole_.forest.is_leaf(PatchId(p)) &&
                 side_of(*whole_.enclosure, whole_.forest, PatchId(p)) != none)
-                divide(PatchId(p), most_levels);
+                divide(PatchId(p), levels);
     }
 
     Solution take() {
@@ -119,8 +117,8 @@ class Divider {
 
 }  // namespace
 
-Solution linear_pieces(const Solution& solution, double tolerance) {
-    return Divider(solution, tolerance).take();
+Solution linear_pieces(const Solution& solution, double tolerance, int levels) {
+    return Divider(solution, tolerance, levels).take();
 }
 
 }  // namespace tyndall::radiosity

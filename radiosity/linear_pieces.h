@@ -14,8 +14,10 @@ inline bool is_quadratic(const Solution& solution) {
 //   their quadratic ones; zones keep their linear part, which has their mean.
 // `tolerance`: what is left in the middle of an edge, over the mean radiosity of the surfaces / π
 //   [-].
-// Method: the longest edge at its middle, twelve times at most. Errors: those of the leaf bisected.
-// Cost: a copy; pieces ~ patches / tolerance, 4096 a patch at most.
-Solution linear_pieces(const Solution& solution, double tolerance);
+// `levels`: how often a patch and its pieces are bisected at most; twice leaves as many as a linear
+//   solution has to show the same light.
+// Method: the longest edge at its middle. Errors: those of the leaf bisected.
+// Cost: a copy; pieces ~ patches / tolerance, 2^levels a patch at most.
+Solution linear_pieces(const Solution& solution, double tolerance, int levels = 2);
 
 }  // namespace tyndall::radiosity

@@ -144,7 +144,7 @@ TEST_CASE("Linear pieces show a quadratic solution", "[quadratic]") {
     const Solution whole = solved(Radiance::quadratic);
     REQUIRE(is_quadratic(whole));
     constexpr double tolerance = 0.002;
-    const Solution pieces = linear_pieces(whole, tolerance);
+    const Solution pieces = linear_pieces(whole, tolerance, 12);
     CHECK_FALSE(is_quadratic(pieces));
     CHECK(pieces.forest.zone_count() == whole.forest.zone_count());
     CHECK(pieces.forest.patch_count() > whole.forest.patch_count());
@@ -169,6 +169,11 @@ TEST_CASE("Linear pieces show a quadratic solution", "[quadratic]") {
     mean /= area;
     CHECK(worst < 1.5 * tolerance * mean);  // at the centroid: up to 4/3 of an edge's middle
     CHECK(bend > 4.0 * worst);
+
+    // Four a patch at most, whatever is asked for.
+    const Solution few = linear_pieces(whole, 1e-9);
+    CHECK(few.report.patches > whole.report.patches);
+    CHECK(few.report.patches <= 4 * whole.report.patches);
 }
 
 TEST_CASE("Quadratic solutions add up", "[quadratic][animation]") {
