@@ -66,8 +66,7 @@ const radiosity::Solution& solved(const ExportSource& source, const ExportOption
 // Of a quadratic solution linear pieces, as many as a linear one has to show the same light.
 template <class Write>
 exports::ExportedFiles in_pieces(const radiosity::Solution& solution, Write&& write) {
-    constexpr double tolerance = 0.004;
-    return radiosity::is_quadratic(solution) ? write(radiosity::linear_pieces(solution, tolerance))
+    return radiosity::is_quadratic(solution) ? write(radiosity::linear_pieces(solution))
                                              : write(solution);
 }
 

@@ -43,10 +43,15 @@ Bend centred(const std::array<double, 6>& second, const std::array<Point, n>& co
     return bend;
 }
 
-// `slopes`: ∇λ of the corners.
 template <std::size_t n>
-std::array<double, 6> second_of(const std::array<Direction, n>& slopes,
+std::array<double, 6> second_of(const std::array<Point, n>& corners,
                                 const std::array<double, n*(n - 1) / 2>& departures) {
+    std::array<Direction, n> slopes;  // ∇λ
+    for (std::size_t i = 0; i < n; ++i) {
+        std::array<double, n> one{};
+        one[i] = 1.0;
+        slopes[i] = interpolate(corners, one).gradient;
+    }
     std::array<double, 6> second{};
     std::size_t edge = 0;
     for (std::size_t i = 0; i < n; ++i)
@@ -78,24 +83,12 @@ Bend bend_with(const std::array<double, 6>& second, const std::array<Point, 3>& 
     return centred(second, corners);
 }
 
-Bend bend_of(const std::array<Point, 4>& p, const std::array<double, 6>& departures) {
-    std::array<Direction, 4> slopes;
-    for (std::size_t i = 0; i < 4; ++i) {
-        std::array<double, 4> one{};
-        one[i] = 1.0;
-        slopes[i] = interpolate(p, one).gradient;
-    }
-    return centred(second_of(slopes, departures), p);
+Bend bend_of(const std::array<Point, 4>& corners, const std::array<double, 6>& departures) {
+    return centred(second_of(corners, departures), corners);
 }
 
-Bend bend_of(const std::array<Point, 3>& p, const std::array<double, 3>& departures) {
-    std::array<Direction, 3> slopes;
-    for (std::size_t i = 0; i < 3; ++i) {
-        std::array<double, 3> one{};
-        one[i] = 1.0;
-        slopes[i] = interpolate(p, one).gradient;
-    }
-    return centred(second_of(slopes, departures), p);
+Bend bend_of(const std::array<Point, 3>& corners, const std::array<double, 3>& departures) {
+    return centred(second_of(corners, departures), corners);
 }
 
 LeafFunction interpolate(const std::array<Point, 4>& corners, const std::array<double, 4>& values,

@@ -18,6 +18,6 @@ inline bool is_quadratic(const Solution& solution) {
 //   solution has to show the same light.
 // Method: the longest edge at its middle. Errors: those of the leaf bisected.
 // Cost: a copy; pieces ~ patches / tolerance, 2^levels a patch at most.
-Solution linear_pieces(const Solution& solution, double tolerance, int levels = 2);
+Solution linear_pieces(const Solution& solution, double tolerance = 0.004, int levels = 2);
 
 }  // namespace tyndall::radiosity

@@ -9,6 +9,19 @@
 
 namespace tyndall::radiosity {
 
+// Quadratic Lagrange functions of a tet (n = 4) or triangle at the place with these barycentric
+// coordinates: λ_i (2 λ_i − 1) of the corners, then 4 λ_i λ_j of the edges (0,1), (0,2), ….
+template <std::size_t n>
+std::array<double, n*(n + 1) / 2> lagrange(const std::array<double, n>& w) {
+    std::array<double, n*(n + 1) / 2> phi;
+    std::size_t edge = n;
+    for (std::size_t i = 0; i < n; ++i) {
+        phi[i] = w[i] * (2.0 * w[i] - 1.0);
+        for (std::size_t j = i + 1; j < n; ++j) phi[edge++] = 4.0 * w[i] * w[j];
+    }
+    return phi;
+}
+
 // The quadratic through values at an element's corners and at the middle of each edge (i, j), i <
 // j, in the order (0,1), (0,2), …; continuous from element to element where they share edges.
 //   f = Σ_i λ_i (2 λ_i − 1) f_i + Σ_{i<j} 4 λ_i λ_j f_ij,   λ the barycentric coordinates
@@ -24,13 +37,10 @@ struct Quadratic {
     double at(mesh::Point x) const {
         const auto w = barycentric(x);
         if (!std::isfinite(w[0])) return mean();
+        const auto phi = lagrange(w);
         double sum = 0.0;
-        std::size_t edge = 0;
-        for (std::size_t i = 0; i < corners; ++i) {
-            sum += w[i] * (2.0 * w[i] - 1.0) * at_corners[i];
-            for (std::size_t j = i + 1; j < corners; ++j)
-                sum += 4.0 * w[i] * w[j] * at_middles[edge++];
-        }
+        for (std::size_t i = 0; i < corners; ++i) sum += phi[i] * at_corners[i];
+        for (std::size_t e = 0; e < edges; ++e) sum += phi[corners + e] * at_middles[e];
         return sum;
     }
 

@@ -18,10 +18,6 @@ constexpr double deviations = 1.0;
 // gathered below them, 0.2 to 0.35 where light is smooth, and half at edges of light on surfaces.
 constexpr double remaining = 0.25;
 
-// Where a patch's departure from linear would by itself have more than this part of the share it
-// may have, its leaves are bisected to show the quadratic: they need no gathers.
-constexpr double shown_share = 1.0;
-
 // A departure joins three samples of equal variance with weights 1, −1/2, −1/2.
 const double departure_noise = std::sqrt(1.5);
 
@@ -208,7 +204,9 @@ RefineResult IndirectRefiner::refine(std::vector<Node> frontier, IndirectSources
             settled.errors[node.value] = static_cast<float>(error);
             settled.linear[node.value] = goal < no_goal && share <= linear_share * threshold;
             result.squared_error += share;
-            if (descend && limits.grow && share > shown_share * remaining * remaining * threshold)
+            // Where all of a patch's departure from linear has more than its share, its leaves are
+            // bisected to show the quadratic: they need no gathers.
+            if (descend && limits.grow && share > remaining * remaining * threshold)
                 shown.push_back(node);
         }
         extend(forest, sources.fields);

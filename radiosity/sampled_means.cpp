@@ -6,6 +6,7 @@
 
 #include "radiosity/open_places.h"
 #include "radiosity/point_set.h"
+#include "radiosity/quadratic.h"
 
 namespace tyndall::radiosity {
 namespace {
@@ -23,17 +24,13 @@ const PointSet& more_points() {
     return set;
 }
 
-// Lagrange functions at the place with these barycentric coordinates, linear and quadratic: of the
-// corners, then of the middles of edges (0, 1), (0, 2), ….
-void lagrange(const std::array<double, 4>& w, Eigen::Vector4d& phi) {
+// Lagrange functions at the place with these barycentric coordinates, linear and quadratic.
+void functions_at(const std::array<double, 4>& w, Eigen::Vector4d& phi) {
     phi = Eigen::Map<const Eigen::Vector4d>(w.data());
 }
 
-void lagrange(const std::array<double, 4>& w, Eigen::Matrix<double, 10, 1>& phi) {
-    for (int i = 0, edge = 4; i < 4; ++i) {
-        phi[i] = w[i] * (2.0 * w[i] - 1.0);
-        for (int j = i + 1; j < 4; ++j) phi[edge++] = 4.0 * w[i] * w[j];
-    }
+void functions_at(const std::array<double, 4>& w, Eigen::Matrix<double, 10, 1>& phi) {
+    phi = Eigen::Map<const Eigen::Matrix<double, 10, 1>>(lagrange(w).data());
 }
 
 // The function that has these values there.
@@ -76,7 +73,7 @@ void SampledMeans::fit(ZoneId zone, std::size_t place) {
         const OpenPlace open = open_place(enclosure_, x, tet);
         light_.at_zone(open.x, open.tet, incident);
         Vector phi;
-        lagrange(w, phi);
+        functions_at(w, phi);
         squares += phi * phi.transpose();
         for (std::size_t b = 0; b < bands; ++b) {
             zones_.means[place + b] += incident[b] / static_cast<double>(points.size());

@@ -5,7 +5,7 @@
 //   dark, and do so more often than not where light falls in thin strips: whole meshes then miss
 //   light with the same sign. Points spread over the leaf have no such preference. Nor does a
 //   function through a zone's corners follow what is between them: one that has the least squares
-//   from it leaves half the error along a ray (docs/theory.md, (67)).
+//   from it leaves less error along a ray (docs/theory.md, (67)).
 // Equation: H̄ = Σ_k H(x_k) / N, x_k a scrambled net, uniform on the leaf, seeded by its node;
 //   of zones Σ_k (Σ_i φ_i(x_k) h_i − H(x_k))² → min, then shifted to the mean H̄; φ the linear
 //   (λ_i) or quadratic Lagrange functions of the tet.
