@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mesh/wall_openings.h"
 #include "radiosity/balance.h"
 #include "radiosity/collect_solution.h"
 #include "radiosity/error_estimate.h"
@@ -115,7 +116,8 @@ class Loop {
                             {asks_for(options_, "direct"), other_indicators(coarse),
                              [&] { show("direct light", coarse); }}));
         direct_.sample_means();
-        const LitPatches lit = leaf_light_.lit_patches();
+        const Fields reflected = leaf_light_.lit_patches();
+        const LitPatches lit(*enclosure_, mesh_.forest(), reflected);
         solve(coarse, &lit);
         end_pass("direct light");
         if (saving(last)) kept_.save(collect(coarse));
@@ -124,7 +126,7 @@ class Loop {
         IndirectRefiner indirect(*enclosure_, mesh_, coarse.elements(), options_.gather_rays,
                                  options_.seed, options_.radiance);
         if (kept_.moved) indirect.begin_with(kept_.moved->settled);
-        gather(coarse, lit, importance,
+        gather(coarse, lit, reflected, importance,
                refines() && asks_for(options_, "indirect") ? (1.0 - direct_share) * goal
                                                            : IndirectRefiner::no_goal,
                indirect);
@@ -177,10 +179,15 @@ class Loop {
     }
 
     // Indirect light of the leaves: zones first, then patches.
-    void gather(const CoarseSolution& coarse, const LitPatches& lit, const Importance& importance,
-                double goal, IndirectRefiner& indirect) {
-        IndirectSources sources{leaf_light_.sources(coarse, &lit), &lit, gather_detail(),
-                                leaf_light_.in_mirrors(coarse, true)};
+    void gather(const CoarseSolution& coarse, const LitPatches& lit, const Fields& reflected,
+                const Importance& importance, double goal, IndirectRefiner& indirect) {
+        IndirectSources sources{leaf_light_.sources(coarse, &lit),
+                                {.lit = &lit},
+                                gather_detail(),
+                                leaf_light_.in_mirrors(coarse, true),
+                                reflected.patch};
+        const auto openings = bright_openings(sources);
+        sources.look.openings = openings.get();
         std::optional<GatherChange> change;
         if (kept_.moved)
             change.emplace(*kept_.moved,
@@ -205,6 +212,15 @@ class Loop {
         direct_.sample_means();
         mesh_.samples().take_from(nullptr);
         if (kept_.keep) keep(coarse, in_zones, sources, lit, indirect);
+        if (kept_.keep) kept_.keep->openings = openings;
+    }
+
+    // Where bodies have moved those before, so that the same rays are spread.
+    std::shared_ptr<const BrightOpenings> bright_openings(const IndirectSources& sources) const {
+        if (kept_.moved) return kept_.moved->openings;
+        if (!mesh::has_interfaces(enclosure_->mesh)) return nullptr;
+        return std::make_shared<const BrightOpenings>(
+            *enclosure_, sources.scene(*enclosure_, mesh_.forest()), sources.look, options_.seed);
     }
 
     void keep(const CoarseSolution& coarse, const Fields& in_zones,

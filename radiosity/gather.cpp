@@ -11,6 +11,13 @@ namespace {
 
 constexpr float opaque_enough = 1e-7f;  // transmittance below which nothing more is gained
 
+// The direction of one ray of a gather, given its numbers.
+Direction gather_direction(const GatherPoint& point,
+                           const std::array<double, point_set_dimensions>& u) {
+    return point.on_surface() ? cosine_direction(point.normal, u[0], u[1])
+                              : uniform_direction(u[0], u[1]);
+}
+
 }  // namespace
 
 GatherScene::GatherScene(const Enclosure& enclosure, const Forest& forest, const Fields& sources,
@@ -109,20 +116,22 @@ class RadianceWalk {
     std::span<float> transmittance_;
 };
 
-// What a leaf sends along a ray; `mirrored`: one that a mirror has turned.
-double GatherScene::sent(PatchId leaf, std::size_t band, Point x, bool mirrored) const {
+// What a leaf sends along a ray, and `more` of the leaf or of the one it was cut from.
+double GatherScene::sent(PatchId leaf, std::size_t band, Point x,
+                         const std::vector<Affine>& more) const {
     const std::size_t bands = enclosure_.bands;
     double sum = patches_[leaf.value * bands + band].at(x);
-    if (mirrored && !in_mirrors_.empty()) {
-        PatchId known = leaf;  // or the leaf that it was cut from
-        while (known.value * bands >= in_mirrors_.size()) known = forest_[known].parent;
-        sum += in_mirrors_[known.value * bands + band].at(x);
+    if (!more.empty()) {
+        PatchId known = leaf;
+        while (known.value * bands >= more.size()) known = forest_[known].parent;
+        sum += more[known.value * bands + band].at(x);
     }
     return std::max(0.0, sum);
 }
 
 void radiance_along(const GatherScene& scene, const mesh::Ray& ray, mesh::WalkStart start,
-                    std::span<double> radiance) {
+                    std::span<double> radiance, Lit lit) {
+    static const std::vector<Affine> nothing;
     const std::size_t bands = radiance.size();
     const Enclosure& enclosure = scene.enclosure_;
     std::fill(radiance.begin(), radiance.end(), 0.0);
@@ -142,8 +151,11 @@ void radiance_along(const GatherScene& scene, const mesh::Ray& ray, mesh::WalkSt
         } else if (end.arrival == mesh::Arrival::struck) {
             const Point x = at.ray.origin + end.distance * at.ray.direction;
             const PatchId leaf = scene.forest_.leaf_at(mesh::root_patch(end.facet, end.side), x);
+            const auto& more = mirrors > 0           ? scene.in_mirrors_
+                               : lit == Lit::brought ? scene.lit_
+                                                     : nothing;
             for (std::size_t b = 0; b < bands; ++b)
-                radiance[b] += transmittance[b] * scene.sent(leaf, b, x, mirrors > 0);
+                radiance[b] += transmittance[b] * scene.sent(leaf, b, x, more);
         }
         const SurfaceSide* mirror = scene.mirrors_ ? mirror_struck(enclosure, end) : nullptr;
         if (!mirror) return;
@@ -160,25 +172,47 @@ void radiance_along(const GatherScene& scene, const mesh::Ray& ray, mesh::WalkSt
     }
 }
 
-void gather(const GatherScene& scene, const LitPatches* lit, const GatherPoint& point,
-            const PointSet& points, std::uint64_t seed, std::span<Gathered> incident) {
+void GatherRays::spread(const GatherPoint& point, const BrightOpenings* openings,
+                        const PointSet& points, std::uint64_t seed) {
+    cones_.clear();
+    rays_.clear();
+    if (openings) cones_.look(*openings, point.x, point.normal, points.size(), hash_seed(seed, 1));
+    double aimed = 0.0;
+    for (const auto& [direction, weight, first_half] : cones_.aimed()) {
+        rays_.push_back({direction, weight, first_half, Lit::brought});
+        aimed += weight;
+    }
+    const std::size_t others = rays_.size();
+    for (std::size_t k = 0; k < points.size(); ++k) {
+        const Direction d = gather_direction(point, points(k, seed));
+        if (!cones_.cover(d)) rays_.push_back({d, 1.0, 2 * k < points.size(), Lit::apart});
+    }
+    const auto count = static_cast<double>(rays_.size() - others);
+    for (std::size_t k = others; k < rays_.size(); ++k) rays_[k].weight = (1.0 - aimed) / count;
+}
+
+std::size_t gather(const GatherScene& scene, const OnPurpose& look, const GatherPoint& point,
+                   const PointSet& points, std::uint64_t seed, std::span<Gathered> incident) {
     const std::size_t bands = incident.size();
     thread_local std::vector<double> radiance, halves;
+    thread_local GatherRays rays;
     radiance.resize(bands);
     halves.assign(2 * bands, 0.0);
-    for (std::size_t k = 0; k < points.size(); ++k) {
-        const mesh::Ray ray{point.x, gather_direction(point, points(k, seed))};
-        radiance_along(scene, ray, point.start, radiance);
-        double* half = halves.data() + (2 * k < points.size() ? 0 : bands);
-        for (std::size_t b = 0; b < bands; ++b) half[b] += radiance[b];
+    rays.spread(point, look.openings, points, seed);
+    for (const GatherRay& one : rays.all()) {
+        radiance_along(scene, {point.x, one.direction}, point.start, radiance, one.lit);
+        double* half = halves.data() + (one.first_half ? 0 : bands);
+        for (std::size_t b = 0; b < bands; ++b) half[b] += one.weight * radiance[b];
     }
     radiance.assign(bands, 0.0);
-    if (lit) lit->gather({point.x, point.start.tet, point.normal, point.on_surface()}, radiance);
-    const double count = static_cast<double>(points.size());
+    if (look.lit)
+        look.lit->gather({point.x, point.start.tet, point.normal, point.on_surface()}, radiance,
+                         &rays.cones());
     for (std::size_t b = 0; b < bands; ++b) {
-        incident[b].mean = radiance[b] + (halves[b] + halves[bands + b]) / count;
-        incident[b].half_difference = (halves[b] - halves[bands + b]) / count;
+        incident[b].mean = radiance[b] + halves[b] + halves[bands + b];
+        incident[b].half_difference = halves[b] - halves[bands + b];
     }
+    return rays.all().size();
 }
 
 }  // namespace tyndall::radiosity

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "radiosity/lit_patches.h"
+#include "radiosity/openings.h"
 #include "radiosity/packed_zones.h"
 #include "radiosity/point_set.h"
 
@@ -26,6 +27,9 @@ struct Gathered {
     double half_difference = 0.0;
 };
 
+// Whether a ray brings what patches reflect of direct light (GatherScene::set_lit).
+enum class Lit { apart, brought };
+
 // What gathers walk through: the trees and r of every leaf in single precision and packed, since a
 // gather is bound by memory (half the bytes of the forest's nodes, a third of the time).
 class GatherScene {
@@ -45,6 +49,9 @@ class GatherScene {
     // them straight have it from elsewhere. Of the patches of the forest when it was made, and so
     // of all below them ([node * bands + band]); empty: nothing.
     void set_in_mirrors(std::vector<Affine> more) { in_mirrors_ = std::move(more); }
+    // Likewise what they send along rays that are aimed at openings: what they reflect of direct
+    // light, if LitPatches have that.
+    void set_lit(std::vector<Affine> lit) { lit_ = std::move(lit); }
 
   private:
     friend class RadianceWalk;
@@ -61,18 +68,18 @@ class GatherScene {
     // Of zones, [node * stride + band]: those of a node lie in as few cache lines as can be.
     std::vector<Sources> sources_;
     std::size_t stride_;
-    double sent(PatchId leaf, std::size_t band, Point x, bool mirrored) const;
-    std::vector<Affine> patches_;     // of patches, [node * bands + band]
-    std::vector<Affine> in_mirrors_;  // set_in_mirrors
-    bool mirrors_;                    // walks go on at some side
-    std::vector<float> extinction_;   // of base tets, [tet * bands + band] [1/m]
+    double sent(PatchId leaf, std::size_t band, Point x, const std::vector<Affine>& more) const;
+    std::vector<Affine> patches_;           // of patches, [node * bands + band]
+    std::vector<Affine> in_mirrors_, lit_;  // set_in_mirrors, set_lit
+    bool mirrors_;                          // walks go on at some side
+    std::vector<float> extinction_;         // of base tets, [tet * bands + band] [1/m]
     // Of base tets, that of the first band, others follow; null where it is uniform. Empty where it
     // is so everywhere.
     std::vector<const ExtinctionBand*> varying_;
     float detail_;
 
     friend void radiance_along(const GatherScene&, const mesh::Ray&, mesh::WalkStart,
-                               std::span<double>);
+                               std::span<double>, Lit);
 };
 
 // Radiance that arrives at the ray's origin from its direction, one value a band:
@@ -80,19 +87,41 @@ class GatherScene {
 // and so on with rho_m T along the mirrored ray where I is that of a mirror             (64)
 // Cost: the zones crossed.
 void radiance_along(const GatherScene& scene, const mesh::Ray& ray, mesh::WalkStart start,
-                    std::span<double> radiance);
+                    std::span<double> radiance, Lit lit = Lit::apart);
 
-// The direction of one ray of a gather, given its numbers.
-inline Direction gather_direction(const GatherPoint& point,
-                                  const std::array<double, point_set_dimensions>& u) {
-    return point.on_surface() ? cosine_direction(point.normal, u[0], u[1])
-                              : uniform_direction(u[0], u[1]);
-}
+// What gathers look at on purpose, so that rays need not find it by luck; null: nothing.
+struct OnPurpose {
+    const LitPatches* lit = nullptr;  // what it holds must not be in the scene's sources
+    const BrightOpenings* openings = nullptr;
+};
 
-// H at a point from the points of the set, scrambled by `seed`: one value a band. What `lit` holds
-// must not be in the scene's sources.
-// Cost: points.size() walks. Error: see `half_difference`.
-void gather(const GatherScene& scene, const LitPatches* lit, const GatherPoint& point,
-            const PointSet& points, std::uint64_t seed, std::span<Gathered> incident);
+// One ray of a gather.
+struct GatherRay {
+    Direction direction;
+    double weight;  // their sum is 1 [-]
+    bool first_half;
+    Lit lit;  // brought by those that are aimed at openings
+};
+
+// The rays of one gather after another (69); keeps its memory.
+class GatherRays {
+  public:
+    // From the points of the set, scrambled by `seed`, and aimed at openings, if there are any.
+    void spread(const GatherPoint& point, const BrightOpenings* openings, const PointSet& points,
+                std::uint64_t seed);
+
+    std::span<const GatherRay> all() const { return rays_; }
+    const OpeningCones& cones() const { return cones_; }
+
+  private:
+    OpeningCones cones_;
+    std::vector<GatherRay> rays_;
+};
+
+// H at a point from the points of the set, scrambled by `seed`: one value a band. Returns how many
+// rays it took.
+// Cost: points.size() walks, and some more where it aims. Error: see `half_difference`.
+std::size_t gather(const GatherScene& scene, const OnPurpose& look, const GatherPoint& point,
+                   const PointSet& points, std::uint64_t seed, std::span<Gathered> incident);
 
 }  // namespace tyndall::radiosity

@@ -215,19 +215,17 @@ bool GatherChange::gather(const GatherScene& now, const GatherPoint& point, cons
     const GatherScene& before = point.on_surface() ? *before_.on_patches : *before_.in_zones;
     const std::uint64_t stream =
         point.on_surface() ? seed : hash_seed(seed, static_cast<std::uint64_t>(kept[2 * bands_]));
-    thread_local std::vector<mesh::Ray> met;
-    thread_local std::vector<bool> first_half;
+    thread_local GatherRays rays;
+    rays.spread(point, before_.openings.get(), points, stream);
+    thread_local std::vector<GatherRay> met;
     met.clear();
-    first_half.clear();
-    for (std::size_t k = 0; k < points.size(); ++k) {
-        const mesh::Ray ray{point.x, gather_direction(point, points(k, stream))};
-        if (!meets(ray)) continue;
+    double others = 1.0;
+    for (const GatherRay& ray : rays.all()) {
+        if (!meets({point.x, ray.direction})) continue;
         met.push_back(ray);
-        first_half.push_back(2 * k < points.size());
+        others -= ray.weight;
     }
-    const double count = static_cast<double>(points.size());
-    if (static_cast<double>(met.size()) > most_met * count) return false;
-    const double others = 1.0 - static_cast<double>(met.size()) / count;
+    if (1.0 - others > most_met) return false;
     for (std::size_t b = 0; b < bands_; ++b) {
         incident[b].mean = kept[2 * b] + others * of_sources_[element * bands_ + b].at(point.x) +
                            of_lit_[element * bands_ + b].at(point.x);  // (49)
@@ -236,13 +234,14 @@ bool GatherChange::gather(const GatherScene& now, const GatherPoint& point, cons
     thread_local std::vector<double> found, lost;
     found.resize(bands_);
     lost.resize(bands_);
-    for (std::size_t k = 0; k < met.size(); ++k) {
-        radiance_along(now, met[k], point.start, found);
-        radiance_along(before, met[k], point.start, lost);
+    // What lit patches bring is in P.
+    for (const auto& [direction, weight, first_half, lit] : met) {
+        radiance_along(now, {point.x, direction}, point.start, found);
+        radiance_along(before, {point.x, direction}, point.start, lost);
         for (std::size_t b = 0; b < bands_; ++b) {
-            const double change = (found[b] - lost[b]) / count;
+            const double change = weight * (found[b] - lost[b]);
             incident[b].mean += change;
-            incident[b].half_difference += first_half[k] ? change : -change;
+            incident[b].half_difference += first_half ? change : -change;
         }
     }
     for (std::size_t b = 0; b < bands_; ++b) incident[b].mean = std::max(0.0, incident[b].mean);

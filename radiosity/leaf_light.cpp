@@ -90,7 +90,7 @@ std::vector<double> LeafLight::means_of_direct(const Elements& e) {
     return result;
 }
 
-LitPatches LeafLight::lit_patches() {
+Fields LeafLight::lit_patches() {
     const Forest& forest = mesh_.forest();
     Fields lit;
     lit.resize(forest, enclosure_.bands);
@@ -101,7 +101,7 @@ LitPatches LeafLight::lit_patches() {
             lit.at(p, b) = {a * f.gradient, a * f.constant};
         }
     if (radiance_ == Radiance::constant) flatten(forest, lit);
-    return {enclosure_, forest, lit};
+    return lit;
 }
 
 std::vector<Affine> LeafLight::in_mirrors(const CoarseSolution& coarse, bool lit) {

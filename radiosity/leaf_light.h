@@ -39,8 +39,8 @@ class LeafLight {
     // [W/m^2/sr].
     std::vector<double> means_of_direct(const Elements& elements);
 
-    // What patches reflect of direct light.
-    LitPatches lit_patches();
+    // What patches reflect of direct light (LitPatches).
+    Fields lit_patches();
 
     // What patches send that those who see them straight have from elsewhere: e^A, and with `lit`
     // what they reflect of direct light. Rays that mirrors have turned gather it

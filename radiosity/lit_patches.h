@@ -20,6 +20,7 @@
 #include "radiosity/fields.h"
 #include "radiosity/mean_transmittance.h"
 #include "radiosity/occlusion.h"
+#include "radiosity/openings.h"
 
 namespace tyndall::radiosity {
 
@@ -31,9 +32,10 @@ class LitPatches {
 
     bool empty() const { return roots_.empty(); }
 
-    // Adds H from lit patches at a receiver, one value a band [W/m^2/sr]. Thread-safe; depends on
-    // the receiver alone.
-    void gather(const Receiver& receiver, std::span<double> incident) const;
+    // Adds H from lit patches at a receiver, one value a band [W/m^2/sr]; without what comes from
+    // within `cones`, which rays bring. Thread-safe; depends on its arguments alone.
+    void gather(const Receiver& receiver, std::span<double> incident,
+                const OpeningCones* cones = nullptr) const;
 
   private:
     struct Node {

@@ -129,10 +129,13 @@ class DirectRefiner {
 
 // What indirect light is gathered from.
 struct IndirectSources {
-    Fields fields;                     // r of the leaves, coarsened, without what `lit` holds
-    const LitPatches* lit = nullptr;   // what patches reflect of direct light
+    Fields fields;                     // r of the leaves, coarsened, without what look.lit holds
+    OnPurpose look{};                  // at what patches reflect of direct light, at openings
     double detail = 0.0;               // see GatherScene [-]
     std::vector<Affine> in_mirrors{};  // GatherScene::set_in_mirrors
+    std::vector<Affine> lit{};         // GatherScene::set_lit
+
+    GatherScene scene(const Enclosure& enclosure, const Forest& forest) const;
 };
 
 // Indirect light: gathered at the corners of the coarse elements and in the middle of their edges;

@@ -41,6 +41,13 @@ std::vector<ZoneId> ancestors(const Forest& forest, std::vector<ZoneId> nodes) {
 
 }  // namespace
 
+GatherScene IndirectSources::scene(const Enclosure& enclosure, const Forest& forest) const {
+    GatherScene scene(enclosure, forest, fields, detail);
+    scene.set_in_mirrors(in_mirrors);
+    scene.set_lit(lit);
+    return scene;
+}
+
 IndirectRefiner::IndirectRefiner(const Enclosure& enclosure, ElementMesh& mesh,
                                  const Elements& coarse, std::size_t rays, std::uint64_t seed,
                                  Radiance radiance)
@@ -83,10 +90,9 @@ template <class Node, class Share>
 std::size_t IndirectRefiner::gather(const std::vector<Node>& frontier,
                                     const IndirectSources& sources, const Share& share,
                                     double threshold) {
-    GatherScene scene(enclosure_, mesh_.forest(), sources.fields, sources.detail);
-    scene.set_in_mirrors(sources.in_mirrors);
+    const GatherScene scene = sources.scene(enclosure_, mesh_.forest());
     const auto gather_at = [&](const std::vector<SampleId>& ids) {
-        return mesh_.samples().gather_at(ids, scene, sources.lit, on_surfaces_, in_zones_, seed_);
+        return mesh_.samples().gather_at(ids, scene, sources.look, on_surfaces_, in_zones_, seed_);
     };
     std::vector<SampleId> ids;
     std::vector<Node> linear;

@@ -111,7 +111,7 @@ void SampleSet::light(const DirectLight& light) {
 }
 
 std::size_t SampleSet::gather_at(const std::vector<SampleId>& ids, const GatherScene& scene,
-                                 const LitPatches* lit, const PointSet& on_surfaces,
+                                 const OnPurpose& look, const PointSet& on_surfaces,
                                  const PointSet& in_zones, std::uint64_t seed) {
     indirect_.resize(points_.size() * bands_);
     gathered_.resize(points_.size());
@@ -124,13 +124,13 @@ std::size_t SampleSet::gather_at(const std::vector<SampleId>& ids, const GatherS
     }
     tbb::parallel_for(std::size_t(0), missing.size(), [&](std::size_t k) {
         const std::size_t i = missing[k].value;
-        rays += gather_one(i, scene, lit, points_[i].on_surface() ? on_surfaces : in_zones, seed);
+        rays += gather_one(i, scene, look, points_[i].on_surface() ? on_surfaces : in_zones, seed);
     });
     return rays;
 }
 
 std::size_t SampleSet::gather_one(std::size_t sample, const GatherScene& scene,
-                                  const LitPatches* lit, const PointSet& points,
+                                  const OnPurpose& look, const PointSet& points,
                                   std::uint64_t seed) {
     const GatherPoint& point = points_[sample];
     const std::span<Gathered> out(indirect_.data() + sample * bands_, bands_);
@@ -140,7 +140,7 @@ std::size_t SampleSet::gather_one(std::size_t sample, const GatherScene& scene,
     const std::uint64_t stream = on_surface ? plane_seed(seed, point.normal) : seed;
     std::size_t walked = 0;
     if (change_ && change_->gather(scene, point, points, stream, out, walked)) return walked;
-    gather(scene, lit, point, points, on_surface ? stream : hash_seed(seed, sample), out);
+    walked = gather(scene, look, point, points, on_surface ? stream : hash_seed(seed, sample), out);
     if (keep_) {
         std::vector<double> values;
         for (const Gathered& one : out)
@@ -148,7 +148,7 @@ std::size_t SampleSet::gather_one(std::size_t sample, const GatherScene& scene,
         values.push_back(static_cast<double>(sample));
         keep_->keep(point.x, point.normal, values);
     }
-    return points.size();
+    return walked;
 }
 
 }  // namespace tyndall::radiosity

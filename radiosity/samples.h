@@ -36,7 +36,7 @@ class SampleSet {
     // Gathers at those of `ids` that have not been gathered yet, in parallel. Returns the rays
     // walked.
     std::size_t gather_at(const std::vector<SampleId>& ids, const GatherScene& scene,
-                          const LitPatches* lit, const PointSet& on_surfaces,
+                          const OnPurpose& look, const PointSet& on_surfaces,
                           const PointSet& in_zones, std::uint64_t seed);
 
     // From now on what rays find at a sample is kept as well, for bodies that move (kept_light.h).
@@ -75,7 +75,7 @@ class SampleSet {
     };
 
     // Returns the rays walked.
-    std::size_t gather_one(std::size_t sample, const GatherScene& scene, const LitPatches* lit,
+    std::size_t gather_one(std::size_t sample, const GatherScene& scene, const OnPurpose& look,
                            const PointSet& points, std::uint64_t seed);
     GatherPoint opened(GatherPoint point) const;
     GatherPoint on_side(PatchId root, Point x) const;

@@ -90,8 +90,7 @@ class CubeProbe {
             point.start = {mesh::locate(enclosure_.mesh, x)};
             light_.at_zone(x, point.start.tet, {&direct, 1});
         }
-        gather({enclosure_, solution_.forest, sources_}, nullptr, point, points_, 1,
-               {&indirect, 1});
+        gather({enclosure_, solution_.forest, sources_}, {}, point, points_, 1, {&indirect, 1});
         return direct + indirect.mean;
     }
 

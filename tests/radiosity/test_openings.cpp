@@ -1,0 +1,207 @@
+// Rays that are aimed at openings: at which, what they count, and what they gain.
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "mesh/wall_openings.h"
+#include "radiosity/gather.h"
+#include "support/catch.h"
+#include "support/rooms.h"
+
+using namespace tyndall;
+using namespace tyndall::radiosity;
+
+namespace {
+
+// A room with haze and, from wall to wall across it, partitions at these x with slits in them.
+Scene parted_room(const std::vector<double>& partitions) {
+    Scene scene;
+    scene.materials = {test::material(0.5)};
+    test::add_surfaces(scene, "room", mesh::room({0, 0, 0}, {3, 2, 2}), 0);
+    for (std::size_t k = 0; k < partitions.size(); ++k) {
+        const std::string name = "wall" + std::to_string(k);
+        auto faces = mesh::rectangle({partitions[k], 0, 0}, {0, 2, 0}, {0, 0, 2},
+                                     {{"slit", {0.9, 0.5}, {0.04, 1.0}}});
+        const std::vector<mesh::Face> slit{faces.back()};
+        faces.pop_back();
+        test::add_surfaces(scene, name, faces, 0);
+        test::add_surfaces(scene, name, slit, std::nullopt);
+    }
+    scene.media = {test::medium(0.2, 0.9)};
+    return scene;
+}
+
+// Its light: the part before the first partition is bright, and varies; behind each partition it is
+// dimmer.
+struct LitRoom {
+    Enclosure enclosure;
+    Forest forest;
+    Fields sources;
+
+    explicit LitRoom(const std::vector<double>& partitions, double dim = 0.01)
+        : enclosure(make_enclosure(parted_room(partitions))), forest(enclosure.mesh) {
+        sources.resize(forest, 1);
+        const auto fill = [&](Affine& f, Point centre) {
+            const auto behind = std::ranges::count_if(
+                partitions, [&](double partition) { return centre.x > partition; });
+            f = behind == 0 ? Affine{{0.2, -0.3, 0.1}, 1.0}
+                            : Affine{{}, std::pow(dim, double(behind))};
+        };
+        for (std::size_t z = 0; z < forest.zone_count(); ++z)
+            fill(sources.at(ZoneId(z), 0), forest.centroid(ZoneId(z)));
+        for (std::size_t p = 0; p < forest.patch_count(); ++p) {
+            const PatchId patch(p);
+            if (side_of(enclosure, forest, patch) == none) continue;
+            fill(sources.at(patch, 0), forest.centroid(patch) + 1e-3 * normal_of(forest, patch));
+        }
+    }
+    GatherScene scene() const { return {enclosure, forest, sources}; }
+    GatherPoint at(Point x, Direction normal = Direction(0.0)) const {
+        const Point beside = x + 1e-9 * normal;
+        return {beside, {mesh::locate(enclosure.mesh, beside)}, normal};
+    }
+};
+
+double gathered(const GatherScene& scene, const OnPurpose& look, const GatherPoint& point,
+                std::size_t rays, std::uint64_t seed) {
+    Gathered value[1];
+    gather(scene, look, point, PointSet(rays), seed, value);
+    return value[0].mean;
+}
+
+const std::vector<std::pair<Point, Direction>> behind_slits{{{2.5, 0.0, 1.0}, {0, 1, 0}},
+                                                            {{2.5, 1.5, 0.0}, {0, 0, 1}},
+                                                            {{3.0, 0.4, 1.2}, {-1, 0, 0}},
+                                                            {{2.6, 1.0, 1.0}, {0, 0, 0}},
+                                                            {{1.8, 0.7, 0.4}, {0, 0, 0}}};
+
+}  // namespace
+
+TEST_CASE("Openings of walls: planar interfaces that opaque facets stand around", "[gather]") {
+    const auto area = [](const Enclosure& e, const std::vector<FacetId>& group) {
+        double sum = 0.0;
+        for (const FacetId f : group) sum += mesh::area(e.mesh, f);
+        return sum;
+    };
+    const Enclosure slits = make_enclosure(parted_room({1.0, 1.5}));
+    const auto openings = mesh::wall_openings(slits.mesh);
+    REQUIRE(openings.size() == 2);
+    CHECK(area(slits, openings[0]) == Approx(0.04));
+    CHECK(area(slits, openings[1]) == Approx(0.04));
+    CHECK(mesh::has_interfaces(slits.mesh));
+
+    // A box of another medium in mid-air is no hole in a wall; its faces are interfaces, though.
+    Scene box = parted_room({});
+    test::add_surfaces(box, "cloud", mesh::box({1, 0.5, 0.5}, {2, 1.5, 1.5}), std::nullopt);
+    const Enclosure cloud = make_enclosure(box);
+    CHECK(mesh::has_interfaces(cloud.mesh));
+    CHECK(mesh::wall_openings(cloud.mesh).empty());
+    CHECK_FALSE(mesh::has_interfaces(make_enclosure(test::slit_room()).mesh));
+}
+
+TEST_CASE("Openings are aimed at from where they are bright, and only from there", "[gather]") {
+    const LitRoom room({1.0});
+    const BrightOpenings openings(room.enclosure, room.scene(), {}, 1);
+    REQUIRE(openings.all().size() == 1);
+    OpeningCones cones;
+    for (const auto& [x, normal] : behind_slits) {
+        cones.look(openings, x, normal, 256, 1);
+        CHECK(cones.aimed().size() >= 32);
+    }
+    const auto not_aimed_at = [&](Point x, Direction normal) {
+        cones.look(openings, x, normal, 256, 1);
+        return cones.empty();
+    };
+    CHECK(not_aimed_at({0.5, 1.0, 1.0}, {0, 0, 0}));      // it is dark behind
+    CHECK(not_aimed_at({1.0, 0.5, 1.0}, {1, 0, 0}));      // in its plane
+    CHECK(not_aimed_at({1.5, 1.0, 2.0}, {0, 0, 1}));      // below the horizon
+    CHECK(not_aimed_at({1.0, 0.92, 1.0}, {0, 0, 0}));     // in the slit itself
+    CHECK(not_aimed_at({1.0001, 0.92, 1.0}, {0, 0, 0}));  // half of all directions
+    // As bright on both sides: there is nothing to be gained.
+    const LitRoom even({1.0}, 1.0);
+    CHECK(BrightOpenings(even.enclosure, even.scene(), {}, 1).all().empty());
+}
+
+TEST_CASE("Rays of a gather that aims at openings count as they should", "[gather]") {
+    // Two slits one behind the other: their cones overlap.
+    const LitRoom room({1.0, 1.5});
+    const BrightOpenings openings(room.enclosure, room.scene(), {}, 1);
+    REQUIRE(openings.all().size() == 2);
+    GatherRays rays;
+    const PointSet points(1u << 16);
+    for (const auto& [x, normal] : behind_slits) {
+        CAPTURE(x.x, x.y, x.z);
+        rays.spread(room.at(x, normal), &openings, points, 3);
+        REQUIRE_FALSE(rays.cones().empty());
+        double sum = 0.0, first_half = 0.0;
+        Direction mean(0.0);
+        std::array<double, 3> squares{};
+        for (const GatherRay& ray : rays.all()) {
+            const bool aimed = ray.lit == Lit::brought;
+            CHECK(rays.cones().cover(ray.direction) == aimed);
+            CHECK(glm::length(ray.direction) == Approx(1.0));
+            sum += ray.weight;
+            first_half += ray.first_half ? ray.weight : 0.0;
+            mean += ray.weight * ray.direction;
+            for (int k = 0; k < 3; ++k)
+                squares[k] += ray.weight * ray.direction[k] * ray.direction[k];
+        }
+        CHECK(sum == Approx(1.0).epsilon(1e-10));
+        CHECK(first_half == Approx(0.5).epsilon(1e-3));
+        // Moments of directions: of the sphere, and cosine-weighted above a plane.
+        CHECK(glm::distance(mean, 2.0 / 3.0 * normal) < 1e-3);
+        for (int k = 0; k < 3; ++k)
+            CHECK(squares[k] == Approx(normal == Direction(0.0)    ? 1.0 / 3.0
+                                       : std::abs(normal[k]) > 0.5 ? 0.5
+                                                                   : 0.25)
+                                    .epsilon(2e-3));
+    }
+}
+
+TEST_CASE("Rays aimed at an opening find what many rays find, with far less noise", "[gather]") {
+    const bool behind_two = GENERATE(false, true);
+    const LitRoom room(behind_two ? std::vector{1.0, 1.5} : std::vector{1.0});
+    const GatherScene scene = room.scene();
+    const BrightOpenings openings(room.enclosure, scene, {}, 1);
+    for (const auto& [x, normal] : behind_slits) {
+        const GatherPoint point = room.at(x, normal);
+        const double exact = gathered(scene, {}, point, 1u << 18, 1);
+        double plain = 0.0, aimed = 0.0, mean = 0.0;
+        constexpr int throws = 32;
+        for (int k = 0; k < throws; ++k) {
+            const double a = gathered(scene, {.openings = &openings}, point, 256, k) / exact;
+            const double b = gathered(scene, {}, point, 256, k) / exact;
+            mean += a / throws;
+            aimed += (a - 1.0) * (a - 1.0) / throws;
+            plain += (b - 1.0) * (b - 1.0) / throws;
+        }
+        CAPTURE(behind_two, x.x, x.y, x.z, exact, std::sqrt(plain), std::sqrt(aimed));
+        // No bias beyond what so many throws and the many rays leave.
+        CHECK(std::abs(mean - 1.0) < 4.0 * std::sqrt(aimed / throws) + 2e-3);
+        CHECK(std::sqrt(aimed) < 0.25 * std::sqrt(plain));
+    }
+}
+
+TEST_CASE("Light that lit patches send through an opening is counted once", "[gather]") {
+    const LitRoom room({1.0});
+    Fields lit, rest = room.sources;
+    lit.resize(room.forest, 1);
+    for (std::size_t p = 0; p < room.forest.patch_count(); ++p) {
+        const Affine all = room.sources.at(PatchId(p), 0);
+        lit.at(PatchId(p), 0) = {0.5 * all.gradient, 0.5 * all.constant};
+        rest.at(PatchId(p), 0) = lit.at(PatchId(p), 0);
+    }
+    GatherScene scene(room.enclosure, room.forest, rest);
+    scene.set_lit(lit.patch);
+    const LitPatches patches(room.enclosure, room.forest, lit);
+    const BrightOpenings openings(room.enclosure, scene, {.lit = &patches}, 1);
+    for (const auto& [x, normal] : behind_slits) {
+        const GatherPoint point = room.at(x, normal);
+        const double exact = gathered(room.scene(), {}, point, 1u << 18, 1);
+        double mean = 0.0;
+        for (int k = 0; k < 16; ++k)
+            mean += gathered(scene, {&patches, &openings}, point, 1024, k) / 16.0;
+        CAPTURE(x.x, x.y, x.z);
+        CHECK(mean == Approx(exact).epsilon(0.01));
+    }
+}
