@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mesh/wall_openings.h"
 #include "radiosity/balance.h"
 #include "radiosity/collect_solution.h"
 #include "radiosity/error_estimate.h"
@@ -186,8 +185,8 @@ class Loop {
                                 gather_detail(),
                                 leaf_light_.in_mirrors(coarse, true),
                                 reflected.patch};
-        const auto openings = bright_openings(sources);
-        sources.look.openings = openings.get();
+        const auto bright = bright_places(sources);
+        sources.look.bright = bright.get();
         std::optional<GatherChange> change;
         if (kept_.moved)
             change.emplace(*kept_.moved,
@@ -212,14 +211,14 @@ class Loop {
         direct_.sample_means();
         mesh_.samples().take_from(nullptr);
         if (kept_.keep) keep(coarse, in_zones, sources, lit, indirect);
-        if (kept_.keep) kept_.keep->openings = openings;
+        if (kept_.keep) kept_.keep->bright = bright;
     }
 
     // Where bodies have moved those before, so that the same rays are spread.
-    std::shared_ptr<const BrightOpenings> bright_openings(const IndirectSources& sources) const {
-        if (kept_.moved) return kept_.moved->openings;
-        if (!mesh::has_interfaces(enclosure_->mesh)) return nullptr;
-        return std::make_shared<const BrightOpenings>(
+    std::shared_ptr<const BrightPlaces> bright_places(const IndirectSources& sources) const {
+        if (kept_.moved) return kept_.moved->bright;
+        if (!may_be_bright_somewhere(*enclosure_)) return nullptr;
+        return std::make_shared<const BrightPlaces>(
             *enclosure_, sources.scene(*enclosure_, mesh_.forest()), sources.look, options_.seed);
     }
 

@@ -50,7 +50,7 @@ FinalGather::FinalGather(const Solution& solution, const Fields& lit)
     }
     rest_.set_in_mirrors(std::move(in_mirrors));
     rest_.set_lit(lit.patch);
-    openings_.emplace(*solution.enclosure, rest_, OnPurpose{.lit = &lit_}, 0);
+    bright_.emplace(*solution.enclosure, rest_, OnPurpose{.lit = &lit_}, 0);
 }
 
 void FinalGather::on_surface(PatchId leaf, Point x, const PointSet& points, std::uint64_t seed,
@@ -60,7 +60,7 @@ void FinalGather::on_surface(PatchId leaf, Point x, const PointSet& points, std:
     gathered.resize(incident.size());
     const GatherPoint point{x, mesh::start_before(s_.enclosure->mesh, root, x),
                             normal_of(s_.forest, leaf)};
-    gather(rest_, {&lit_, &*openings_}, point, points, seed, gathered);
+    gather(rest_, {&lit_, &*bright_}, point, points, seed, gathered);
     for (std::size_t b = 0; b < incident.size(); ++b) incident[b] = gathered[b].mean;
 }
 

@@ -15,8 +15,8 @@ class FinalGather {
     //   band [W/m^2/sr]: what all elements send out but for light that counts as direct, and what
     //   stands in the way right there.
     // Equation: (4) along cosine-weighted directions, `points` of them, for what is smooth; patches
-    //   that direct light shines on, and openings, are looked at on purpose (lit_patches.h,
-    //   openings.h).
+    //   that direct light shines on, and bright places, are looked at on purpose (lit_patches.h,
+    //   bright_places.h).
     // Error: that of the rays, falls as their number^-0.75; of the solution's elements as sources.
     // Cost: points walks, O(log patches) shadow rays. Thread-safe; depends on its arguments alone.
     // Source: final gathering: Rushmeier (1988), Lischinski, Tampieri & Greenberg (1993).
@@ -29,7 +29,7 @@ class FinalGather {
     const Solution& s_;
     LitPatches lit_;
     GatherScene rest_;
-    std::optional<BrightOpenings> openings_;
+    std::optional<BrightPlaces> bright_;
 };
 
 }  // namespace tyndall::radiosity

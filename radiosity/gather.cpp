@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "radiosity/mirrored_ray.h"
 #include "radiosity/segment.h"
+#include "radiosity/uneven_zones.h"
 
 namespace tyndall::radiosity {
 namespace {
@@ -32,6 +34,9 @@ GatherScene::GatherScene(const Enclosure& enclosure, const Forest& forest, const
     sources_.resize(zones_.size() * stride_ / 4 + 1);
     for (std::size_t k = 0; k < sources.zone.size(); ++k)
         set_source(ZoneId(k / sources.bands), k % sources.bands, sources.zone[k]);
+    if (detail > 0.0)
+        for (const ZoneId zone : uneven_zones(enclosure, forest, sources))
+            zones_[zone.value].longest_edge = std::numeric_limits<float>::infinity();
     for (std::size_t t = 0; t < enclosure.mesh.tets.size(); ++t)
         for (std::size_t b = 0; b < enclosure.bands; ++b)
             extinction_.push_back(
@@ -172,14 +177,14 @@ void radiance_along(const GatherScene& scene, const mesh::Ray& ray, mesh::WalkSt
     }
 }
 
-void GatherRays::spread(const GatherPoint& point, const BrightOpenings* openings,
+void GatherRays::spread(const GatherPoint& point, const BrightPlaces* bright,
                         const PointSet& points, std::uint64_t seed) {
     cones_.clear();
     rays_.clear();
-    if (openings) cones_.look(*openings, point.x, point.normal, points.size(), hash_seed(seed, 1));
+    if (bright) cones_.look(*bright, point, points.size(), hash_seed(seed, 1));
     double aimed = 0.0;
-    for (const auto& [direction, weight, first_half] : cones_.aimed()) {
-        rays_.push_back({direction, weight, first_half, Lit::brought});
+    for (const auto& [direction, weight, first_half, opening] : cones_.aimed()) {
+        rays_.push_back({direction, weight, first_half, opening ? Lit::brought : Lit::apart});
         aimed += weight;
     }
     const std::size_t others = rays_.size();
@@ -198,7 +203,7 @@ std::size_t gather(const GatherScene& scene, const OnPurpose& look, const Gather
     thread_local GatherRays rays;
     radiance.resize(bands);
     halves.assign(2 * bands, 0.0);
-    rays.spread(point, look.openings, points, seed);
+    rays.spread(point, look.bright, points, seed);
     for (const GatherRay& one : rays.all()) {
         radiance_along(scene, {point.x, one.direction}, point.start, radiance, one.lit);
         double* half = halves.data() + (one.first_half ? 0 : bands);

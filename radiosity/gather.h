@@ -3,22 +3,13 @@
 
 #include <span>
 
+#include "radiosity/bright_cones.h"
+#include "radiosity/gather_point.h"
 #include "radiosity/lit_patches.h"
-#include "radiosity/openings.h"
 #include "radiosity/packed_zones.h"
 #include "radiosity/point_set.h"
 
 namespace tyndall::radiosity {
-
-// Where light is gathered: in a zone (no normal), or on the side of a surface that `normal` looks
-// from.
-struct GatherPoint {
-    Point x{0.0};
-    mesh::WalkStart start;
-    Direction normal{0.0};  // unit; zero in a zone
-
-    bool on_surface() const { return normal != Direction(0.0); }
-};
 
 struct Gathered {
     double mean = 0.0;  // H: mean radiance, cosine-weighted on a surface [W/m^2/sr]
@@ -35,7 +26,8 @@ enum class Lit { apart, brought };
 class GatherScene {
   public:
     // `sources`: r of every leaf, coarsened: what it sends out besides direct emission. Zones whose
-    // longest edge is below `detail` × distance stand for their leaves (0: always the leaves) [-].
+    // longest edge is below `detail` × distance stand for their leaves (0: always the leaves) [-],
+    // but uneven ones (uneven_zones.h).
     // Later bisections of the forest are not seen. Cost: O(nodes).
     GatherScene(const Enclosure& enclosure, const Forest& forest, const Fields& sources,
                 double detail = 0.0);
@@ -92,7 +84,7 @@ void radiance_along(const GatherScene& scene, const mesh::Ray& ray, mesh::WalkSt
 // What gathers look at on purpose, so that rays need not find it by luck; null: nothing.
 struct OnPurpose {
     const LitPatches* lit = nullptr;  // what it holds must not be in the scene's sources
-    const BrightOpenings* openings = nullptr;
+    const BrightPlaces* bright = nullptr;
 };
 
 // One ray of a gather.
@@ -106,15 +98,16 @@ struct GatherRay {
 // The rays of one gather after another (69); keeps its memory.
 class GatherRays {
   public:
-    // From the points of the set, scrambled by `seed`, and aimed at openings, if there are any.
-    void spread(const GatherPoint& point, const BrightOpenings* openings, const PointSet& points,
+    // From the points of the set, scrambled by `seed`, and aimed at bright places, if there are
+    // any.
+    void spread(const GatherPoint& point, const BrightPlaces* bright, const PointSet& points,
                 std::uint64_t seed);
 
     std::span<const GatherRay> all() const { return rays_; }
-    const OpeningCones& cones() const { return cones_; }
+    const BrightCones& cones() const { return cones_; }
 
   private:
-    OpeningCones cones_;
+    BrightCones cones_;
     std::vector<GatherRay> rays_;
 };
 

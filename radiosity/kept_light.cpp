@@ -216,7 +216,7 @@ bool GatherChange::gather(const GatherScene& now, const GatherPoint& point, cons
     const std::uint64_t stream =
         point.on_surface() ? seed : hash_seed(seed, static_cast<std::uint64_t>(kept[2 * bands_]));
     thread_local GatherRays rays;
-    rays.spread(point, before_.openings.get(), points, stream);
+    rays.spread(point, before_.bright.get(), points, stream);
     thread_local std::vector<GatherRay> met;
     met.clear();
     double others = 1.0;

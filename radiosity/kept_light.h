@@ -42,8 +42,8 @@ struct KeptLight {
     std::vector<double> coarse_errors;   // error_estimate.h
     IndirectRefiner::Ends settled;
     Importance::Scale scale;
-    std::shared_ptr<const BrightOpenings> openings;  // that gathers' rays were aimed at
-    PlaceMemory direct;                              // H^A at every place it was asked for
+    std::shared_ptr<const BrightPlaces> bright;  // that gathers' rays were aimed at
+    PlaceMemory direct;                          // H^A at every place it was asked for
     PlaceMemory gathers;  // mean and half difference a band, the seed's number
     Forest forest;        // in the end
     // What was gathered from in zones, and on patches.

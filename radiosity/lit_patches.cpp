@@ -90,7 +90,7 @@ std::uint32_t LitPatches::add(const Forest& forest, const Fields& lit, PatchId p
 class LitPatches::Visit {
   public:
     Visit(const LitPatches& lit, const Receiver& receiver, std::span<double> incident,
-          const OpeningCones* cones)
+          const BrightCones* cones)
         : lit_(lit),
           receiver_(receiver),
           incident_(incident),
@@ -176,7 +176,7 @@ class LitPatches::Visit {
         const auto w = uniform_in_triangle(unit_number(bits), unit_number(hash_seed(bits, 1)));
         const Direction path =
             w[0] * t.corners[0] + w[1] * t.corners[1] + w[2] * t.corners[2] - receiver_.x;
-        if (cones_ && cones_->cover(path)) return;
+        if (cones_ && cones_->cover_by_openings(path)) return;
         const double share = weight(t);
         if (share <= 0.0 || blocked(path)) return;
         std::fill(depths_.begin(), depths_.end(), 0.0);
@@ -222,7 +222,7 @@ class LitPatches::Visit {
     const LitPatches& lit_;
     const Receiver& receiver_;
     std::span<double> incident_;
-    const OpeningCones* cones_;
+    const BrightCones* cones_;
     std::vector<double> depths_;
     std::vector<Point> above_;
     Front here_;                    // the receiver's own tet
@@ -230,7 +230,7 @@ class LitPatches::Visit {
 };
 
 void LitPatches::gather(const Receiver& receiver, std::span<double> incident,
-                        const OpeningCones* cones) const {
+                        const BrightCones* cones) const {
     Visit visit(*this, receiver, incident, cones);
     for (std::size_t k = 0; k < roots_.size(); ++k)
         if (glm::dot(normals_[k], receiver.x - nodes_[roots_[k]].centroid) > 0.0) visit.tree(k);

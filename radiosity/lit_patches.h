@@ -17,10 +17,10 @@
 #include <vector>
 
 #include "mesh/tet_planes.h"
+#include "radiosity/bright_cones.h"
 #include "radiosity/fields.h"
 #include "radiosity/mean_transmittance.h"
 #include "radiosity/occlusion.h"
-#include "radiosity/openings.h"
 
 namespace tyndall::radiosity {
 
@@ -32,10 +32,11 @@ class LitPatches {
 
     bool empty() const { return roots_.empty(); }
 
-    // Adds H from lit patches at a receiver, one value a band [W/m^2/sr]; without what comes from
-    // within `cones`, which rays bring. Thread-safe; depends on its arguments alone.
+    // Adds H from lit patches at a receiver, one value a band [W/m^2/sr]; without what comes
+    // through the openings of `cones`, which rays bring. Thread-safe; depends on its arguments
+    // alone.
     void gather(const Receiver& receiver, std::span<double> incident,
-                const OpeningCones* cones = nullptr) const;
+                const BrightCones* cones = nullptr) const;
 
   private:
     struct Node {

@@ -29,7 +29,7 @@ Probe::Probe(const Solution& solution, const ProbeOptions& options)
       points_(options.rays),
       step_(relative_step * diagonal(solution.enclosure->mesh)) {
     scene_.set_in_mirrors(sources_in_mirrors(solution));
-    openings_.emplace(*solution.enclosure, scene_, OnPurpose{}, options_.seed);
+    bright_.emplace(*solution.enclosure, scene_, OnPurpose{}, options_.seed);
 }
 
 // Off the faces of the tet that holds x, if it lies on one: a point in a wall's plane is on neither
@@ -94,8 +94,8 @@ Probe::Place Probe::place(Point x, Direction normal) const {
 
 std::vector<Gathered> Probe::gathered(const Place& place, Direction normal) const {
     std::vector<Gathered> incident(solution_.enclosure->bands);
-    gather(scene_, {.openings = &*openings_}, {place.x, {place.tet}, normal}, points_,
-           options_.seed, incident);
+    gather(scene_, {.bright = &*bright_}, {place.x, {place.tet}, normal}, points_, options_.seed,
+           incident);
     return incident;
 }
 

@@ -59,7 +59,7 @@ class Probe {
     const Solution& solution_;
     ProbeOptions options_;
     GatherScene scene_;
-    std::optional<BrightOpenings> openings_;
+    std::optional<BrightPlaces> bright_;
     DirectLight light_;
     PointSet points_;
     double step_;  // off a wall [m]

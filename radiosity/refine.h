@@ -130,7 +130,7 @@ class DirectRefiner {
 // What indirect light is gathered from.
 struct IndirectSources {
     Fields fields;                     // r of the leaves, coarsened, without what look.lit holds
-    OnPurpose look{};                  // at what patches reflect of direct light, at openings
+    OnPurpose look{};                  // at what patches reflect of direct light, at bright places
     double detail = 0.0;               // see GatherScene [-]
     std::vector<Affine> in_mirrors{};  // GatherScene::set_in_mirrors
     std::vector<Affine> lit{};         // GatherScene::set_lit

@@ -1,10 +1,11 @@
-// Rays that are aimed at openings: at which, what they count, and what they gain.
+// Rays that are aimed at bright places: at which, what they count, and what they gain.
 #include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "mesh/wall_openings.h"
 #include "radiosity/gather.h"
+#include "radiosity/uneven_zones.h"
 #include "support/catch.h"
 #include "support/rooms.h"
 
@@ -29,6 +30,11 @@ Scene parted_room(const std::vector<double>& partitions) {
     }
     scene.media = {test::medium(0.2, 0.9)};
     return scene;
+}
+
+GatherPoint gather_point(const Enclosure& enclosure, Point x, Direction normal) {
+    const Point beside = x + 1e-9 * normal;
+    return {beside, {mesh::locate(enclosure.mesh, beside)}, normal};
 }
 
 // Its light: the part before the first partition is bright, and varies; behind each partition it is
@@ -57,10 +63,50 @@ struct LitRoom {
     }
     GatherScene scene() const { return {enclosure, forest, sources}; }
     GatherPoint at(Point x, Direction normal = Direction(0.0)) const {
-        const Point beside = x + 1e-9 * normal;
-        return {beside, {mesh::locate(enclosure.mesh, beside)}, normal};
+        return gather_point(enclosure, x, normal);
     }
 };
+
+// A room with a small lamp in haze that is as bright as a lamp there makes it.
+struct RoomWithLamp {
+    static constexpr Point lamp{0.9, 1.0, 1.1};
+    Enclosure enclosure;
+    Forest forest;
+    Fields sources;
+
+    RoomWithLamp() : enclosure(make_enclosure(scene_with_lamp())), forest(enclosure.mesh) {
+        std::vector<ZoneId> zones;
+        for (std::size_t z = 0; z < forest.zone_count(); ++z) zones.emplace_back(z);
+        for (std::size_t k = 0; k < zones.size(); ++k) {
+            const ZoneId zone = zones[k];
+            const double distance = glm::distance(forest.centroid(zone), lamp);
+            if (forest[zone].longest_edge < std::max(0.02, 0.3 * distance)) continue;
+            const auto [i, j] = forest.longest_edge(zone);
+            const ZoneId first = forest.bisect(zone, i, j);
+            zones.push_back(first);
+            zones.emplace_back(first.value + 1ull);
+        }
+        sources.resize(forest, 1);
+        for (std::size_t z = 0; z < forest.zone_count(); ++z) {
+            const double distance = glm::distance(forest.centroid(ZoneId(z)), lamp);
+            if (forest.is_leaf(ZoneId(z)))
+                sources.at(ZoneId(z), 0).constant = 0.2 / (distance * distance);
+        }
+        for (Affine& wall : sources.patch) wall.constant = 0.05;
+        coarsen(forest, sources);
+    }
+    static Scene scene_with_lamp() {
+        Scene scene = parted_room({});
+        scene.lights = {{"lamp", PointLight{lamp, {1.0}}, {}}};
+        return scene;
+    }
+};
+
+const std::vector<std::pair<Point, Direction>> about_the_lamp{{{0.9, 0.0, 1.0}, {0, 1, 0}},
+                                                              {{0.6, 1.2, 0.0}, {0, 0, 1}},
+                                                              {{3.0, 0.4, 1.2}, {-1, 0, 0}},
+                                                              {{0.7, 1.3, 1.0}, {0, 0, 0}},
+                                                              {{2.0, 0.7, 0.4}, {0, 0, 0}}};
 
 double gathered(const GatherScene& scene, const OnPurpose& look, const GatherPoint& point,
                 std::size_t rays, std::uint64_t seed) {
@@ -68,6 +114,27 @@ double gathered(const GatherScene& scene, const OnPurpose& look, const GatherPoi
     gather(scene, look, point, PointSet(rays), seed, value);
     return value[0].mean;
 }
+
+// Relative deviations of gathers with 256 rays from what many find, over some throws.
+struct Noises {
+    static constexpr int throws = 32;
+    double plain = 0.0, aimed = 0.0, bias = 0.0;
+
+    Noises(const GatherScene& scene, const BrightPlaces& places, const GatherPoint& point) {
+        const double exact = gathered(scene, {}, point, 1u << 18, 1);
+        for (int k = 0; k < throws; ++k) {
+            const double with = gathered(scene, {.bright = &places}, point, 256, k) / exact - 1.0;
+            const double without = gathered(scene, {}, point, 256, k) / exact - 1.0;
+            bias += with / throws;
+            aimed += with * with / throws;
+            plain += without * without / throws;
+        }
+        plain = std::sqrt(plain);
+        aimed = std::sqrt(aimed);
+    }
+    // By what so many throws and the many rays leave.
+    double may_be_biased() const { return 4.0 * aimed / std::sqrt(double(throws)) + 2e-3; }
+};
 
 const std::vector<std::pair<Point, Direction>> behind_slits{{{2.5, 0.0, 1.0}, {0, 1, 0}},
                                                             {{2.5, 1.5, 0.0}, {0, 0, 1}},
@@ -101,15 +168,15 @@ TEST_CASE("Openings of walls: planar interfaces that opaque facets stand around"
 
 TEST_CASE("Openings are aimed at from where they are bright, and only from there", "[gather]") {
     const LitRoom room({1.0});
-    const BrightOpenings openings(room.enclosure, room.scene(), {}, 1);
+    const BrightPlaces openings(room.enclosure, room.scene(), {}, 1);
     REQUIRE(openings.all().size() == 1);
-    OpeningCones cones;
+    BrightCones cones;
     for (const auto& [x, normal] : behind_slits) {
-        cones.look(openings, x, normal, 256, 1);
+        cones.look(openings, room.at(x, normal), 256, 1);
         CHECK(cones.aimed().size() >= 32);
     }
     const auto not_aimed_at = [&](Point x, Direction normal) {
-        cones.look(openings, x, normal, 256, 1);
+        cones.look(openings, room.at(x, normal), 256, 1);
         return cones.empty();
     };
     CHECK(not_aimed_at({0.5, 1.0, 1.0}, {0, 0, 0}));      // it is dark behind
@@ -119,13 +186,13 @@ TEST_CASE("Openings are aimed at from where they are bright, and only from there
     CHECK(not_aimed_at({1.0001, 0.92, 1.0}, {0, 0, 0}));  // half of all directions
     // As bright on both sides: there is nothing to be gained.
     const LitRoom even({1.0}, 1.0);
-    CHECK(BrightOpenings(even.enclosure, even.scene(), {}, 1).all().empty());
+    CHECK(BrightPlaces(even.enclosure, even.scene(), {}, 1).all().empty());
 }
 
 TEST_CASE("Rays of a gather that aims at openings count as they should", "[gather]") {
     // Two slits one behind the other: their cones overlap.
     const LitRoom room({1.0, 1.5});
-    const BrightOpenings openings(room.enclosure, room.scene(), {}, 1);
+    const BrightPlaces openings(room.enclosure, room.scene(), {}, 1);
     REQUIRE(openings.all().size() == 2);
     GatherRays rays;
     const PointSet points(1u << 16);
@@ -133,19 +200,22 @@ TEST_CASE("Rays of a gather that aims at openings count as they should", "[gathe
         CAPTURE(x.x, x.y, x.z);
         rays.spread(room.at(x, normal), &openings, points, 3);
         REQUIRE_FALSE(rays.cones().empty());
-        double sum = 0.0, first_half = 0.0;
+        double sum = 0.0, first_half = 0.0, off_unit = 0.0;
+        bool parted = true;
         Direction mean(0.0);
         std::array<double, 3> squares{};
         for (const GatherRay& ray : rays.all()) {
             const bool aimed = ray.lit == Lit::brought;
-            CHECK(rays.cones().cover(ray.direction) == aimed);
-            CHECK(glm::length(ray.direction) == Approx(1.0));
+            parted = parted && rays.cones().cover(ray.direction) == aimed;
+            off_unit = std::max(off_unit, std::abs(glm::length(ray.direction) - 1.0));
             sum += ray.weight;
             first_half += ray.first_half ? ray.weight : 0.0;
             mean += ray.weight * ray.direction;
             for (int k = 0; k < 3; ++k)
                 squares[k] += ray.weight * ray.direction[k] * ray.direction[k];
         }
+        CHECK(parted);
+        CHECK(off_unit < 1e-12);
         CHECK(sum == Approx(1.0).epsilon(1e-10));
         CHECK(first_half == Approx(0.5).epsilon(1e-3));
         // Moments of directions: of the sphere, and cosine-weighted above a plane.
@@ -162,23 +232,78 @@ TEST_CASE("Rays aimed at an opening find what many rays find, with far less nois
     const bool behind_two = GENERATE(false, true);
     const LitRoom room(behind_two ? std::vector{1.0, 1.5} : std::vector{1.0});
     const GatherScene scene = room.scene();
-    const BrightOpenings openings(room.enclosure, scene, {}, 1);
+    const BrightPlaces openings(room.enclosure, scene, {}, 1);
     for (const auto& [x, normal] : behind_slits) {
-        const GatherPoint point = room.at(x, normal);
-        const double exact = gathered(scene, {}, point, 1u << 18, 1);
-        double plain = 0.0, aimed = 0.0, mean = 0.0;
-        constexpr int throws = 32;
-        for (int k = 0; k < throws; ++k) {
-            const double a = gathered(scene, {.openings = &openings}, point, 256, k) / exact;
-            const double b = gathered(scene, {}, point, 256, k) / exact;
-            mean += a / throws;
-            aimed += (a - 1.0) * (a - 1.0) / throws;
-            plain += (b - 1.0) * (b - 1.0) / throws;
-        }
-        CAPTURE(behind_two, x.x, x.y, x.z, exact, std::sqrt(plain), std::sqrt(aimed));
-        // No bias beyond what so many throws and the many rays leave.
-        CHECK(std::abs(mean - 1.0) < 4.0 * std::sqrt(aimed / throws) + 2e-3);
-        CHECK(std::sqrt(aimed) < 0.25 * std::sqrt(plain));
+        const Noises noises(scene, openings, room.at(x, normal));
+        CAPTURE(behind_two, x.x, x.y, x.z, noises.plain, noises.aimed);
+        CHECK(std::abs(noises.bias) < noises.may_be_biased());
+        CHECK(noises.aimed < 0.25 * noises.plain);
+    }
+}
+
+TEST_CASE("Rays aimed at the haze about a lamp find what many rays find, with less noise",
+          "[gather]") {
+    const RoomWithLamp room;
+    const GatherScene scene(room.enclosure, room.forest, room.sources);
+    const BrightPlaces balls(room.enclosure, scene, {}, 1);
+    REQUIRE(balls.all().size() >= 2);
+    CHECK_FALSE(balls.all().front().is_opening());
+    double gain = 1.0;
+    for (const auto& [x, normal] : about_the_lamp) {
+        const Noises noises(scene, balls, gather_point(room.enclosure, x, normal));
+        CAPTURE(x.x, x.y, x.z, noises.plain, noises.aimed);
+        CHECK(std::abs(noises.bias) < noises.may_be_biased());
+        CHECK(noises.aimed < 0.8 * noises.plain);
+        gain *= noises.plain / noises.aimed;
+    }
+    CHECK(gain > std::pow(2.0, double(about_the_lamp.size())));
+}
+
+TEST_CASE("Nothing is aimed at where a wall hides it", "[gather]") {
+    Scene scene = RoomWithLamp::scene_with_lamp();
+    test::add_surfaces(scene, "screen", mesh::rectangle({1.5, 0, 0}, {0, 2, 0}, {0, 0, 2}), 0);
+    const Enclosure enclosure = make_enclosure(scene);
+    const Forest forest(enclosure.mesh);
+    Fields sources;
+    sources.resize(forest, 1);
+    for (std::size_t z = 0; z < forest.zone_count(); ++z)
+        if (forest.centroid(ZoneId(z)).x < 1.5) sources.at(ZoneId(z), 0).constant = 1e3;
+    for (Affine& wall : sources.patch) wall.constant = 0.05;
+    // Bright all over, not about the lamp: nothing is aimed at from before the screen either.
+    const GatherScene gathered_from(enclosure, forest, sources);
+    const BrightPlaces places(enclosure, gathered_from, {}, 1);
+    CHECK(places.all().empty());
+
+    const RoomWithLamp room;
+    const BrightPlaces balls(room.enclosure, GatherScene(room.enclosure, room.forest, room.sources),
+                             {}, 1);
+    BrightCones cones;
+    cones.look(balls, gather_point(room.enclosure, {2.5, 1.0, 1.0}, {0, 0, 0}), 256, 1);
+    CHECK_FALSE(cones.empty());
+    cones.look(balls, gather_point(room.enclosure, RoomWithLamp::lamp, {0, 0, 0}), 256, 1);
+    CHECK(cones.empty());  // it is all around
+}
+
+TEST_CASE("Uneven zones never stand for their leaves", "[gather]") {
+    const RoomWithLamp room;
+    const auto uneven = uneven_zones(room.enclosure, room.forest, room.sources);
+    REQUIRE_FALSE(uneven.empty());
+    // Those that hold the lamp are, from the base tetrahedron on.
+    const TetId tet = mesh::locate(room.enclosure.mesh, RoomWithLamp::lamp);
+    CHECK(std::ranges::count(uneven, mesh::root_zone(tet)) == 1);
+    // A linear function has nothing that a zone could not stand for.
+    Fields linear = room.sources;
+    for (Affine& f : linear.zone) f = {{0.1, 0.2, 0.3}, 1.0};
+    CHECK(uneven_zones(room.enclosure, room.forest, linear).empty());
+
+    // With the coarsest detail a gather still finds what one finds that sees all leaves.
+    const GatherScene leaves(room.enclosure, room.forest, room.sources);
+    const GatherScene coarse(room.enclosure, room.forest, room.sources, 1.0);
+    for (const auto& [x, normal] : about_the_lamp) {
+        const GatherPoint point = gather_point(room.enclosure, x, normal);
+        CAPTURE(x.x, x.y, x.z);
+        CHECK(gathered(coarse, {}, point, 1u << 14, 1) ==
+              Approx(gathered(leaves, {}, point, 1u << 14, 1)).epsilon(0.005));
     }
 }
 
@@ -194,7 +319,7 @@ TEST_CASE("Light that lit patches send through an opening is counted once", "[ga
     GatherScene scene(room.enclosure, room.forest, rest);
     scene.set_lit(lit.patch);
     const LitPatches patches(room.enclosure, room.forest, lit);
-    const BrightOpenings openings(room.enclosure, scene, {.lit = &patches}, 1);
+    const BrightPlaces openings(room.enclosure, scene, {.lit = &patches}, 1);
     for (const auto& [x, normal] : behind_slits) {
         const GatherPoint point = room.at(x, normal);
         const double exact = gathered(room.scene(), {}, point, 1u << 18, 1);
