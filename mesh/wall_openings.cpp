@@ -9,7 +9,7 @@
 namespace tyndall::mesh {
 namespace {
 
-constexpr double walled = 0.5;  // of an opening's outline, at least
+constexpr double walled = 0.9;  // of an opening's outline, at least
 
 struct Edge {
     std::array<std::uint32_t, 2> ends;

@@ -21,20 +21,23 @@ class BrightCones {
         Direction direction;
         double weight;    // what it counts [-]
         bool first_half;  // of those in its cone
-        bool through_opening;
+        // Whence on it brings what lit patches reflect: beyond its opening; else never [m].
+        double lit_beyond;
     };
 
     // `rays`: how many ordinary ones are to be had. Aims where these would leave a notable error,
-    // and at nothing that they find well enough or that is hidden.
+    // and at nothing that they find well enough or that seems hidden.
     void look(const BrightPlaces& places, const GatherPoint& point, std::size_t rays,
               std::uint64_t seed);
     void clear();
 
     bool empty() const { return cones_.empty(); }
     std::span<const Aimed> aimed() const { return aimed_; }
-    // Whether a direction (of any length) lies in a cone; in one to an opening.
-    bool cover(Direction d) const { return cover(d, cones_.size()); }
-    bool cover_by_openings(Direction d) const { return cover(d, openings_); }
+    // Whether a direction (of any length) lies in a cone.
+    bool cover(Direction d) const { return first_cone(d, cones_.size()) < cones_.size(); }
+    // Whether what is sent from the end of a path to the point is left to aimed rays, where lit
+    // patches are looked at apart: it comes through an opening that they are aimed at.
+    bool bring_lit(Direction path) const;
 
   private:
     struct Cone {
@@ -44,7 +47,9 @@ class BrightCones {
         double solid_angle = 0.0;              // [sr]
         Direction axis{0};                     // unit, of a ball
         double cosine = 0.0;                   // of the angle about it
+        double height = 0.0;                   // of the point above an opening's front [m]
         std::size_t end = 0;                   // of an opening's pieces
+        std::size_t aimed = 0;                 // twice the ordinary rays in it
     };
     struct Piece {
         std::array<Direction, 3> corners, edges;  // unit vectors; normals of its edges' planes
@@ -53,17 +58,16 @@ class BrightCones {
 
     static Cone to_opening(const BrightPlace& opening, const GatherPoint& point);
     static Cone to_ball(const BrightPlace& ball, const GatherPoint& point);
-    static bool shows(const mesh::BaseMesh& mesh, const Cone& cone, const GatherPoint& point);
-    void keep_most_noisy();
+    void choose(const mesh::BaseMesh& mesh, const GatherPoint& point);
     void add_pieces(const BrightPlace& opening, Point x);
-    bool cover(Direction d, std::size_t cones) const;
+    // The first of so many cones that a direction lies in; their number if none.
+    std::size_t first_cone(Direction d, std::size_t cones) const;
     void aim(std::size_t cone, const PointSet& points, std::size_t count, const GatherPoint& point,
              std::uint64_t seed);
     std::pair<Direction, double> in_opening(std::size_t cone, double u, double v) const;
     std::pair<Direction, double> in_ball(const Cone& cone, double u, double v) const;
 
     std::vector<Cone> cones_;
-    std::size_t openings_ = 0;   // of the cones, they come first
     std::vector<Piece> pieces_;  // of all openings, one after another
     std::vector<Aimed> aimed_;
 };

@@ -1,8 +1,12 @@
 #include "radiosity/bright_places.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
+#include "mesh/convex_merge.h"
 #include "mesh/wall_openings.h"
 #include "radiosity/gather.h"
 #include "radiosity/open_places.h"
@@ -13,10 +17,14 @@ namespace {
 
 // Directions that are ever aimed at one place from a point.
 constexpr std::size_t most_aimed = 4096;
+// Brightness that is more counts no more: of a place beside one that is all but dark.
+constexpr double most_brightness = 1e3;
 // Rays that look for the brightness of a place, from each of some points.
 constexpr std::size_t looks = 256;
 // Of a scene, whose brightness is looked at; of an opening, for that.
 constexpr std::size_t most_openings = 64, most_facets = 8;
+// Of an opening that is aimed at: every ray of a gather is compared with all of them.
+constexpr std::size_t most_triangles = 32;
 // Radiance gained on the way past a lamp falls as one over how far away it is passed: balls about
 // it, each so many times the size of the one before; the first is so many times the lamp's, or of
 // the scene's size, as the last.
@@ -25,15 +33,23 @@ constexpr double smallest_ball = 1.0 / 512.0, largest_ball = 1.0 / 16.0;
 constexpr std::size_t most_lamps = 64;
 constexpr double corner_tolerance = 1e-9;  // as direct light has it
 
-std::array<Point, 3> corners_of(const mesh::BaseMesh& mesh, FacetId facet) {
-    std::array<Point, 3> corners;
-    for (int k = 0; k < 3; ++k) corners[k] = mesh.points[mesh.facets[facet.value].corners[k].value];
-    return corners;
+// As few triangles as there may be for the same opening.
+std::vector<std::array<Point, 3>> few_triangles(const mesh::BaseMesh& mesh,
+                                                std::span<const FacetId> group) {
+    std::vector<std::array<mesh::VertexId, 3>> facets;
+    for (const FacetId f : group) facets.push_back(mesh.facets[f.value].corners);
+    std::vector<std::array<Point, 3>> triangles;
+    for (const auto& [corners, normal] : mesh::convex_merge(
+             mesh.points, facets, mesh::Facing::ignored, corner_tolerance * mesh::diagonal(mesh)))
+        for (std::size_t k = 2; k < corners.size(); ++k)
+            triangles.push_back({corners[0], corners[k - 1], corners[k]});
+    return triangles;
 }
 
 // Openings that light may pass, the largest: it may lead out of the hull.
 std::vector<std::vector<FacetId>> openings_of(const Enclosure& enclosure) {
     const mesh::BaseMesh& mesh = enclosure.mesh;
+    if (!mesh::has_interfaces(mesh)) return {};
     std::vector<std::vector<FacetId>> groups = mesh::wall_openings(mesh);
     std::erase_if(groups, [&](const auto& group) {
         const auto& tets = mesh.facets[group.front().value].tets;
@@ -69,9 +85,11 @@ std::vector<double> arriving(const Enclosure& enclosure, const GatherScene& scen
                 sum[b] += weight * enclosure.environment[b];
             continue;
         }
-        const auto corners = corners_of(mesh, f);
-        const GatherPoint point{(corners[0] + corners[1] + corners[2]) / 3.0,
-                                mesh::start_on(mesh, f, front ? Side::front : Side::back), away};
+        Point middle(0.0);
+        for (const mesh::VertexId corner : mesh.facets[f.value].corners)
+            middle += mesh.points[corner.value] / 3.0;
+        const GatherPoint point{middle, mesh::start_on(mesh, f, front ? Side::front : Side::back),
+                                away};
         gather(scene, look, point, points, hash_seed(seed, f.value), here);
         for (std::size_t b = 0; b < sum.size(); ++b) sum[b] += weight * here[b].mean;
     }
@@ -79,11 +97,11 @@ std::vector<double> arriving(const Enclosure& enclosure, const GatherScene& scen
     return sum;
 }
 
-double brightest(const std::vector<double>& there, const std::vector<double>& here) {
-    double most = 0.0;
-    for (std::size_t b = 0; b < there.size(); ++b)
-        if (there[b] > 0.0) most = std::max(most, there[b] / std::max(here[b], 1e-6 * there[b]));
-    return most;
+// Of all bands together: one that brings next to nothing does not count.
+double brightness_of(const std::vector<double>& there, const std::vector<double>& here) {
+    const double most = std::accumulate(there.begin(), there.end(), 0.0);
+    const double around = std::accumulate(here.begin(), here.end(), 0.0);
+    return most > 0.0 ? most / std::max(around, most / most_brightness) : 0.0;
 }
 
 // Spheres about what shines, those that lie close together in one.
@@ -91,6 +109,16 @@ struct Ball {
     Point centre;
     double radius;
 };
+// The smallest one about two.
+Ball joined(const Ball& a, const Ball& b) {
+    const Direction to = b.centre - a.centre;
+    const double distance = glm::length(to);
+    if (distance + b.radius <= a.radius) return a;
+    if (distance + a.radius <= b.radius) return b;
+    const double radius = 0.5 * (distance + a.radius + b.radius);
+    return {a.centre + to / distance * (radius - a.radius), radius};
+}
+
 std::vector<Ball> lamps_of(const Enclosure& enclosure) {
     std::vector<Ball> lamps;
     for (const LightCone& light : shining_lights(enclosure, true, corner_tolerance).cones) {
@@ -98,19 +126,11 @@ std::vector<Ball> lamps_of(const Enclosure& enclosure) {
         const auto near = std::ranges::find_if(lamps, [&](const Ball& lamp) {
             return glm::distance(lamp.centre, light.centre) <= 2.0 * (lamp.radius + light.radius);
         });
-        if (near == lamps.end()) {
+        if (near != lamps.end())
+            *near = joined(*near, {light.centre, light.radius});
+        else if (lamps.size() < most_lamps)
             lamps.push_back({light.centre, light.radius});
-            continue;
-        }
-        const Point to = light.centre - near->centre;
-        const double distance = glm::length(to);
-        if (distance + light.radius <= near->radius) continue;
-        const double radius =
-            std::max(0.5 * (distance + near->radius + light.radius), light.radius);
-        if (distance > 0.0) near->centre += to / distance * (radius - near->radius);
-        near->radius = radius;
     }
-    if (lamps.size() > most_lamps) lamps.resize(most_lamps);
     return lamps;
 }
 
@@ -139,7 +159,7 @@ std::vector<double> within(const Enclosure& enclosure, const GatherScene& scene,
     return sum;
 }
 
-// Mean of what arrives at points on a ball.
+// Mean of what arrives at points on a ball; empty where light can be at none of them.
 std::vector<double> around(const Enclosure& enclosure, const GatherScene& scene,
                            const OnPurpose& look, const Ball& ball, const PointSet& points,
                            std::uint64_t seed) {
@@ -155,8 +175,49 @@ std::vector<double> around(const Enclosure& enclosure, const GatherScene& scene,
         for (std::size_t b = 0; b < sum.size(); ++b) sum[b] += here[b].mean;
         count += 1.0;
     }
-    for (double& value : sum) value /= std::max(count, 1.0);
+    if (count == 0.0) return {};
+    for (double& value : sum) value /= count;
     return sum;
+}
+
+// How bright it is through an opening, if it may be aimed at.
+BrightPlace looked_at(const Enclosure& enclosure, const GatherScene& scene, const OnPurpose& look,
+                      std::span<const FacetId> group, std::uint64_t seed) {
+    const PointSet points(looks);
+    BrightPlace opening;
+    opening.triangles = few_triangles(enclosure.mesh, group);
+    if (opening.triangles.size() > most_triangles) return opening;
+    opening.normal = mesh::normal(enclosure.mesh, group.front());
+    const auto before = arriving(enclosure, scene, look, group, opening.normal, points, seed);
+    const auto behind = arriving(enclosure, scene, look, group, -opening.normal, points, seed);
+    opening.brightness = {brightness_of(behind, before), brightness_of(before, behind)};
+    const double corners = 3.0 * static_cast<double>(opening.triangles.size());
+    for (const auto& triangle : opening.triangles)
+        for (const Point& p : triangle) opening.centre += p / corners;
+    for (const auto& triangle : opening.triangles)
+        for (const Point& p : triangle)
+            opening.radius = std::max(opening.radius, glm::distance(p, opening.centre));
+    return opening;
+}
+
+// Balls about a lamp.
+std::vector<BrightPlace> looked_at(const Enclosure& enclosure, const GatherScene& scene,
+                                   const OnPurpose& look, const Ball& lamp, std::uint64_t seed) {
+    const PointSet points(looks);
+    const double size = mesh::diagonal(enclosure.mesh);
+    const double smallest = std::max(about_lamp * lamp.radius, smallest_ball * size);
+    Ball far{lamp.centre, largest_ball * size};
+    std::vector<double> outside;
+    for (; outside.empty() && far.radius >= smallest; far.radius /= next_ball)
+        outside = around(enclosure, scene, look, far, points, seed);
+    if (outside.empty()) return {};
+    std::vector<BrightPlace> balls;
+    for (double radius = smallest; radius <= largest_ball * size; radius *= next_ball) {
+        const auto inside = within(enclosure, scene, {lamp.centre, radius}, points, seed);
+        const double brightness = brightness_of(inside, outside);
+        balls.push_back({{}, Direction(0.0), lamp.centre, radius, {brightness, brightness}});
+    }
+    return balls;
 }
 
 }  // namespace
@@ -169,50 +230,22 @@ bool may_be_bright_somewhere(const Enclosure& enclosure) {
 BrightPlaces::BrightPlaces(const Enclosure& enclosure, const GatherScene& scene,
                            const OnPurpose& look, std::uint64_t seed)
     : mesh_(enclosure.mesh), points_(most_aimed) {
-    add_openings(enclosure, scene, look, seed);
-    if (!enclosure.media.empty()) add_balls(enclosure, scene, look, seed);
-}
-
-void BrightPlaces::add_openings(const Enclosure& enclosure, const GatherScene& scene,
-                                const OnPurpose& look, std::uint64_t seed) {
-    const PointSet points(looks);
-    for (const auto& group : openings_of(enclosure)) {
-        BrightPlace opening;
-        opening.normal = mesh::normal(enclosure.mesh, group.front());
-        const auto before = arriving(enclosure, scene, look, group, opening.normal, points, seed);
-        const auto behind = arriving(enclosure, scene, look, group, -opening.normal, points, seed);
-        opening.brightness = {brightest(behind, before), brightest(before, behind)};
-        if (*std::ranges::max_element(opening.brightness) < bright) continue;
-        for (const FacetId f : group) {
-            opening.triangles.push_back(corners_of(enclosure.mesh, f));
-            for (const Point& p : opening.triangles.back())
-                opening.centre += p / (3.0 * double(group.size()));
-        }
-        for (const auto& triangle : opening.triangles)
-            for (const Point& p : triangle)
-                opening.radius = std::max(opening.radius, glm::distance(p, opening.centre));
-        places_.push_back(std::move(opening));
-    }
-}
-
-void BrightPlaces::add_balls(const Enclosure& enclosure, const GatherScene& scene,
-                             const OnPurpose& look, std::uint64_t seed) {
-    const PointSet points(looks);
-    const double size = mesh::diagonal(enclosure.mesh);
-    const std::vector<Ball> lamps = lamps_of(enclosure);
-    for (std::size_t k = 0; k < lamps.size(); ++k) {
-        const Point centre = lamps[k].centre;
+    const auto openings = openings_of(enclosure);
+    const auto lamps = enclosure.media.empty() ? std::vector<Ball>{} : lamps_of(enclosure);
+    std::vector<std::vector<BrightPlace>> found(openings.size() + lamps.size());
+    tbb::parallel_for(std::size_t(0), found.size(), [&](std::size_t k) {
         const std::uint64_t stream = hash_seed(seed, k);
-        const double largest = largest_ball * size;
-        const auto outside = around(enclosure, scene, look, {centre, largest}, points, stream);
-        double radius = std::max(about_lamp * lamps[k].radius, smallest_ball * size);
-        for (; radius <= largest; radius *= next_ball) {
-            const double brightness =
-                brightest(within(enclosure, scene, {centre, radius}, points, stream), outside);
-            if (brightness >= bright)
-                places_.push_back({{}, Direction(0.0), centre, radius, {brightness}});
-        }
-    }
+        if (k < openings.size())
+            found[k] = {looked_at(enclosure, scene, look, openings[k], stream)};
+        else
+            found[k] = looked_at(enclosure, scene, look, lamps[k - openings.size()], stream);
+    });
+    for (const auto& places : found)
+        for (const BrightPlace& place : places)
+            if (*std::ranges::max_element(place.brightness) >= bright) places_.push_back(place);
+    std::ranges::stable_sort(places_, {}, [](const BrightPlace& place) {
+        return place.is_opening() ? 0.0 : place.radius;
+    });
 }
 
 }  // namespace tyndall::radiosity

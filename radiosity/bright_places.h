@@ -3,7 +3,7 @@
 // Purpose: behind a narrow slit nearly all light may come from a few thousandths of all directions,
 //   and beside a lamp that stands in haze much of it from about the lamp; random rays find them by
 //   luck. Rays are aimed there instead (bright_cones.h).
-// Cost: some hundred walks a place.
+// Cost: some thousand walks a place.
 #pragma once
 
 #include <cstdint>
@@ -24,8 +24,8 @@ struct BrightPlace {
     Point centre{0};                              // of the ball, or of one about the opening
     double radius = 0.0;                          // [m]
     // Of an opening, what comes through it to its front and to its back, relative to what comes
-    // from there; of a ball, what is gained within it, relative to what arrives around it: means,
-    // of the band where that is most [-].
+    // from there; of a ball, twice, what chords of it bring, relative to what arrives around it:
+    // means, of all bands together [-].
     std::array<double, 2> brightness{};
 
     bool is_opening() const { return !triangles.empty(); }
@@ -35,7 +35,7 @@ class BrightPlaces {
   public:
     // Those of an enclosure in the light of `scene` and of what is looked at besides: openings of
     // its walls first (mesh/wall_openings.h), then balls about what shines in a medium, small ones
-    // before those around them. Keeps a reference to the enclosure's mesh.
+    // before large ones. Keeps a reference to the enclosure's mesh.
     BrightPlaces(const Enclosure& enclosure, const GatherScene& scene, const OnPurpose& look,
                  std::uint64_t seed);
 
@@ -45,11 +45,6 @@ class BrightPlaces {
     const PointSet& points() const { return points_; }
 
   private:
-    void add_openings(const Enclosure& enclosure, const GatherScene& scene, const OnPurpose& look,
-                      std::uint64_t seed);
-    void add_balls(const Enclosure& enclosure, const GatherScene& scene, const OnPurpose& look,
-                   std::uint64_t seed);
-
     const mesh::BaseMesh& mesh_;
     std::vector<BrightPlace> places_;
     PointSet points_;

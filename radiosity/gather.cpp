@@ -135,7 +135,7 @@ double GatherScene::sent(PatchId leaf, std::size_t band, Point x,
 }
 
 void radiance_along(const GatherScene& scene, const mesh::Ray& ray, mesh::WalkStart start,
-                    std::span<double> radiance, Lit lit) {
+                    std::span<double> radiance, double lit_beyond) {
     static const std::vector<Affine> nothing;
     const std::size_t bands = radiance.size();
     const Enclosure& enclosure = scene.enclosure_;
@@ -156,9 +156,9 @@ void radiance_along(const GatherScene& scene, const mesh::Ray& ray, mesh::WalkSt
         } else if (end.arrival == mesh::Arrival::struck) {
             const Point x = at.ray.origin + end.distance * at.ray.direction;
             const PatchId leaf = scene.forest_.leaf_at(mesh::root_patch(end.facet, end.side), x);
-            const auto& more = mirrors > 0           ? scene.in_mirrors_
-                               : lit == Lit::brought ? scene.lit_
-                                                     : nothing;
+            const auto& more = mirrors > 0                 ? scene.in_mirrors_
+                               : end.distance > lit_beyond ? scene.lit_
+                                                           : nothing;
             for (std::size_t b = 0; b < bands; ++b)
                 radiance[b] += transmittance[b] * scene.sent(leaf, b, x, more);
         }
@@ -180,42 +180,68 @@ void radiance_along(const GatherScene& scene, const mesh::Ray& ray, mesh::WalkSt
 void GatherRays::spread(const GatherPoint& point, const BrightPlaces* bright,
                         const PointSet& points, std::uint64_t seed) {
     cones_.clear();
-    rays_.clear();
     if (bright) cones_.look(*bright, point, points.size(), hash_seed(seed, 1));
-    double aimed = 0.0;
-    for (const auto& [direction, weight, first_half, opening] : cones_.aimed()) {
-        rays_.push_back({direction, weight, first_half, opening ? Lit::brought : Lit::apart});
-        aimed += weight;
+    for (;;) {
+        add_aimed();
+        if (add_ordinary(point, points, seed)) return;
+        cones_.clear();  // one half has no ordinary ray: none is aimed
     }
-    const std::size_t others = rays_.size();
+}
+
+void GatherRays::add_aimed() {
+    rays_.clear();
+    first_half_.clear();
+    aimed_ = {};
+    for (const auto& [direction, weight, first_half, lit_beyond] : cones_.aimed()) {
+        rays_.push_back({direction, weight, first_half ? weight : -weight, lit_beyond});
+        first_half_.push_back(first_half);
+        aimed_[first_half ? 0 : 1] += weight;
+    }
+}
+
+// False if aimed rays leave one half of the others without any.
+bool GatherRays::add_ordinary(const GatherPoint& point, const PointSet& points,
+                              std::uint64_t seed) {
+    const std::size_t begin = rays_.size();
+    std::array<double, 2> count{};
     for (std::size_t k = 0; k < points.size(); ++k) {
         const Direction d = gather_direction(point, points(k, seed));
-        if (!cones_.cover(d)) rays_.push_back({d, 1.0, 2 * k < points.size(), Lit::apart});
+        if (!cones_.empty() && cones_.cover(d)) continue;
+        const bool first_half = 2 * k < points.size();
+        rays_.push_back({d, 0.0, 0.0, mesh::infinity});
+        first_half_.push_back(first_half);
+        count[first_half ? 0 : 1] += 1.0;
     }
-    const auto count = static_cast<double>(rays_.size() - others);
-    for (std::size_t k = others; k < rays_.size(); ++k) rays_[k].weight = (1.0 - aimed) / count;
+    if (!cones_.empty() && !(count[0] * count[1] > 0.0)) return false;
+    const double weight = std::max(0.0, 1.0 - aimed_[0] - aimed_[1]) / (count[0] + count[1]);
+    for (std::size_t k = begin; k < rays_.size(); ++k) {
+        const int half = first_half_[k] ? 0 : 1;
+        rays_[k].weight = weight;
+        rays_[k].half_weight = (half == 0 ? 0.5 : -0.5) * (1.0 - 2.0 * aimed_[half]) / count[half];
+    }
+    return true;
 }
 
 std::size_t gather(const GatherScene& scene, const OnPurpose& look, const GatherPoint& point,
                    const PointSet& points, std::uint64_t seed, std::span<Gathered> incident) {
     const std::size_t bands = incident.size();
-    thread_local std::vector<double> radiance, halves;
+    thread_local std::vector<double> radiance;
     thread_local GatherRays rays;
     radiance.resize(bands);
-    halves.assign(2 * bands, 0.0);
+    std::ranges::fill(incident, Gathered{});
     rays.spread(point, look.bright, points, seed);
     for (const GatherRay& one : rays.all()) {
-        radiance_along(scene, {point.x, one.direction}, point.start, radiance, one.lit);
-        double* half = halves.data() + (one.first_half ? 0 : bands);
-        for (std::size_t b = 0; b < bands; ++b) half[b] += one.weight * radiance[b];
+        radiance_along(scene, {point.x, one.direction}, point.start, radiance, one.lit_beyond);
+        for (std::size_t b = 0; b < bands; ++b) {
+            incident[b].mean += one.weight * radiance[b];
+            incident[b].half_difference += one.half_weight * radiance[b];
+        }
     }
-    radiance.assign(bands, 0.0);
-    if (look.lit)
+    if (look.lit) {
+        radiance.assign(bands, 0.0);
         look.lit->gather({point.x, point.start.tet, point.normal, point.on_surface()}, radiance,
                          &rays.cones());
-    for (std::size_t b = 0; b < bands; ++b) {
-        incident[b].mean = radiance[b] + halves[b] + halves[bands + b];
-        incident[b].half_difference = halves[b] - halves[bands + b];
+        for (std::size_t b = 0; b < bands; ++b) incident[b].mean += radiance[b];
     }
     return rays.all().size();
 }

@@ -18,9 +18,6 @@ struct Gathered {
     double half_difference = 0.0;
 };
 
-// Whether a ray brings what patches reflect of direct light (GatherScene::set_lit).
-enum class Lit { apart, brought };
-
 // What gathers walk through: the trees and r of every leaf in single precision and packed, since a
 // gather is bound by memory (half the bytes of the forest's nodes, a third of the time).
 class GatherScene {
@@ -71,15 +68,16 @@ class GatherScene {
     float detail_;
 
     friend void radiance_along(const GatherScene&, const mesh::Ray&, mesh::WalkStart,
-                               std::span<double>, Lit);
+                               std::span<double>, double);
 };
 
 // Radiance that arrives at the ray's origin from its direction, one value a band:
 //   L = Σ_segments T ∫ κ e^{−κs} J ds + T I   with J, I linear in their elements            (4)
 // and so on with rho_m T along the mirrored ray where I is that of a mirror             (64)
+// and beyond `lit_beyond` [m] also what patches reflect of direct light (GatherScene::set_lit).
 // Cost: the zones crossed.
 void radiance_along(const GatherScene& scene, const mesh::Ray& ray, mesh::WalkStart start,
-                    std::span<double> radiance, Lit lit = Lit::apart);
+                    std::span<double> radiance, double lit_beyond = mesh::infinity);
 
 // What gathers look at on purpose, so that rays need not find it by luck; null: nothing.
 struct OnPurpose {
@@ -91,8 +89,10 @@ struct OnPurpose {
 struct GatherRay {
     Direction direction;
     double weight;  // their sum is 1 [-]
-    bool first_half;
-    Lit lit;  // brought by those that are aimed at openings
+    // What it counts in half the difference of what two halves of the rays find: each half a gather
+    // of its own, whose weights sum to 1 [-].
+    double half_weight;
+    double lit_beyond;  // see radiance_along [m]
 };
 
 // The rays of one gather after another (69); keeps its memory.
@@ -107,8 +107,13 @@ class GatherRays {
     const BrightCones& cones() const { return cones_; }
 
   private:
+    void add_aimed();
+    bool add_ordinary(const GatherPoint& point, const PointSet& points, std::uint64_t seed);
+
     BrightCones cones_;
     std::vector<GatherRay> rays_;
+    std::vector<bool> first_half_;   // of each ray
+    std::array<double, 2> aimed_{};  // the sums of weights of aimed rays, of each half
 };
 
 // H at a point from the points of the set, scrambled by `seed`: one value a band. Returns how many

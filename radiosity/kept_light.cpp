@@ -222,6 +222,8 @@ bool GatherChange::gather(const GatherScene& now, const GatherPoint& point, cons
     double others = 1.0;
     for (const GatherRay& ray : rays.all()) {
         if (!meets({point.x, ray.direction})) continue;
+        // What lit patches send through an opening is in H⁰ as rays found it, not as P has it.
+        if (ray.lit_beyond < mesh::infinity) return false;
         met.push_back(ray);
         others -= ray.weight;
     }
@@ -234,14 +236,13 @@ bool GatherChange::gather(const GatherScene& now, const GatherPoint& point, cons
     thread_local std::vector<double> found, lost;
     found.resize(bands_);
     lost.resize(bands_);
-    // What lit patches bring is in P.
-    for (const auto& [direction, weight, first_half, lit] : met) {
-        radiance_along(now, {point.x, direction}, point.start, found);
-        radiance_along(before, {point.x, direction}, point.start, lost);
+    for (const GatherRay& ray : met) {
+        radiance_along(now, {point.x, ray.direction}, point.start, found);
+        radiance_along(before, {point.x, ray.direction}, point.start, lost);
         for (std::size_t b = 0; b < bands_; ++b) {
-            const double change = weight * (found[b] - lost[b]);
-            incident[b].mean += change;
-            incident[b].half_difference += first_half ? change : -change;
+            const double change = found[b] - lost[b];
+            incident[b].mean += ray.weight * change;
+            incident[b].half_difference += ray.half_weight * change;
         }
     }
     for (std::size_t b = 0; b < bands_; ++b) incident[b].mean = std::max(0.0, incident[b].mean);

@@ -91,7 +91,8 @@ class GatherChange {
     GatherChange(const KeptLight& before, const Now& now, double error);
 
     // H at a point, one value a band; false where it is to be gathered anew: nothing was kept, or a
-    // body is within a quarter of an element's size, or met by more than two fifths of the rays.
+    // body is within a quarter of an element's size, or met by more than two fifths of the rays, or
+    // by one that is aimed at an opening.
     // Thread-safe; `walked` rays are counted, two for each that meets.
     bool gather(const GatherScene& now, const GatherPoint& point, const PointSet& points,
                 std::uint64_t seed, std::span<Gathered> incident, std::size_t& walked) const;

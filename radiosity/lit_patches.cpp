@@ -176,7 +176,7 @@ class LitPatches::Visit {
         const auto w = uniform_in_triangle(unit_number(bits), unit_number(hash_seed(bits, 1)));
         const Direction path =
             w[0] * t.corners[0] + w[1] * t.corners[1] + w[2] * t.corners[2] - receiver_.x;
-        if (cones_ && cones_->cover_by_openings(path)) return;
+        if (cones_ && cones_->bring_lit(path)) return;
         const double share = weight(t);
         if (share <= 0.0 || blocked(path)) return;
         std::fill(depths_.begin(), depths_.end(), 0.0);

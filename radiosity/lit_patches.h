@@ -32,9 +32,8 @@ class LitPatches {
 
     bool empty() const { return roots_.empty(); }
 
-    // Adds H from lit patches at a receiver, one value a band [W/m^2/sr]; without what comes
-    // through the openings of `cones`, which rays bring. Thread-safe; depends on its arguments
-    // alone.
+    // Adds H from lit patches at a receiver, one value a band [W/m^2/sr]; without what the rays
+    // aimed along `cones` bring. Thread-safe; depends on its arguments alone.
     void gather(const Receiver& receiver, std::span<double> incident,
                 const BrightCones* cones = nullptr) const;
 
