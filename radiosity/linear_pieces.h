@@ -5,11 +5,6 @@
 
 namespace tyndall::radiosity {
 
-// Whether any of its leaves' functions are quadratic.
-inline bool is_quadratic(const Solution& solution) {
-    return !solution.direct.zone_bend.empty() || !solution.indirect.patch_bend.empty();
-}
-
 // Purpose: the solution with its patches bisected until linear functions between their corners show
 //   their quadratic ones; zones keep their linear part, which has their mean.
 // `tolerance`: what is left in the middle of an edge, over the mean radiosity of the surfaces / π

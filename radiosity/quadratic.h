@@ -22,6 +22,30 @@ std::array<double, n*(n + 1) / 2> lagrange(const std::array<double, n>& w) {
     return phi;
 }
 
+// What the linear function nearest to a tet's values leaves of them: its corners, the middles of
+// its edges and its centroid, eleven for four numbers.
+//   Σ_k (Σ_i λ_i(x_k) h_i − f_k)² → min:  Σ_k λ λᵀ = (a − b) 1 + b 11ᵀ
+inline double squares_left(const std::array<double, 4>& corners,
+                           const std::array<double, 6>& middles, double centroid) {
+    constexpr double a = 1.0 + 3.0 / 4.0 + 1.0 / 16.0, b = 1.0 / 4.0 + 1.0 / 16.0;
+    std::array<double, 4> h;
+    for (int i = 0; i < 4; ++i) h[i] = corners[i] + 0.25 * centroid;
+    for (int i = 0, e = 0; i < 4; ++i)
+        for (int j = i + 1; j < 4; ++j, ++e) {
+            h[i] += 0.5 * middles[e];
+            h[j] += 0.5 * middles[e];
+        }
+    const double sum = (h[0] + h[1] + h[2] + h[3]) / (a + 3.0 * b);
+    const auto square = [](double x) { return x * x; };
+    double left = square(0.25 * sum - centroid);
+    for (double& v : h) v = (v - b * sum) / (a - b);
+    for (int i = 0, e = 0; i < 4; ++i) {
+        left += square(h[i] - corners[i]);
+        for (int j = i + 1; j < 4; ++j, ++e) left += square(0.5 * (h[i] + h[j]) - middles[e]);
+    }
+    return left;
+}
+
 // The quadratic through values at an element's corners and at the middle of each edge (i, j), i <
 // j, in the order (0,1), (0,2), …; continuous from element to element where they share edges.
 //   f = Σ_i λ_i (2 λ_i − 1) f_i + Σ_{i<j} 4 λ_i λ_j f_ij,   λ the barycentric coordinates

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "radiosity/open_places.h"
+#include "radiosity/quadratic.h"
 #include "radiosity/refine.h"
 
 namespace tyndall::radiosity {
@@ -26,30 +27,6 @@ class RootMeanSquare {
   private:
     double square_ = 0.0, count_ = 0.0;
 };
-
-// What the linear function nearest to a tet's values leaves of them: its corners, the middles of
-// its edges and its centroid, eleven for four numbers.
-//   Σ_k (Σ_i λ_i(x_k) h_i − f_k)² → min:  Σ_k λ λᵀ = (a − b) 1 + b 11ᵀ
-double squares_left(const std::array<double, 4>& corners, const std::array<double, 6>& middles,
-                    double centroid) {
-    constexpr double a = 1.0 + 3.0 / 4.0 + 1.0 / 16.0, b = 1.0 / 4.0 + 1.0 / 16.0;
-    std::array<double, 4> h;
-    for (int i = 0; i < 4; ++i) h[i] = corners[i] + 0.25 * centroid;
-    for (int i = 0, e = 0; i < 4; ++i)
-        for (int j = i + 1; j < 4; ++j, ++e) {
-            h[i] += 0.5 * middles[e];
-            h[j] += 0.5 * middles[e];
-        }
-    const double sum = (h[0] + h[1] + h[2] + h[3]) / (a + 3.0 * b);
-    const auto square = [](double x) { return x * x; };
-    double left = square(0.25 * sum - centroid);
-    for (double& v : h) v = (v - b * sum) / (a - b);
-    for (int i = 0, e = 0; i < 4; ++i) {
-        left += square(h[i] - corners[i]);
-        for (int j = i + 1; j < 4; ++j, ++e) left += square(0.5 * (h[i] + h[j]) - middles[e]);
-    }
-    return left;
-}
 
 // A tet's edge is bisected where the error is largest, so that meshes stretch along shafts, but
 // never one much shorter than the longest, so that slivers do not run away.

@@ -108,6 +108,11 @@ struct Solution {
     Report report;
 };
 
+// Whether any of its leaves' functions are quadratic.
+inline bool is_quadratic(const Solution& solution) {
+    return !solution.direct.zone_bend.empty() || !solution.indirect.patch_bend.empty();
+}
+
 // e of a leaf's one equation, and a: (1−Omega) J_e and Omega, or I_e and rho. Zero where nothing
 // is.
 double emission_of(const Solution& solution, ZoneId zone, std::size_t band);

@@ -7,7 +7,6 @@
 #include "mesh/file_bytes.h"
 #include "mesh/input_error.h"
 #include "radiosity/leaves_in_order.h"
-#include "radiosity/linear_pieces.h"
 #include "radiosity/report_json.h"
 #include "radiosity/solution_parts.h"
 

@@ -7,6 +7,7 @@
 #include "radiosity/incremental_radiosity.h"
 #include "radiosity/linear_pieces.h"
 #include "radiosity/open_places.h"
+#include "radiosity/quadratic.h"
 #include "radiosity/segment.h"
 #include "support/catch.h"
 #include "support/rooms.h"
@@ -104,6 +105,45 @@ TEST_CASE("A quadratic function is found from its values at corners and middles"
     // A flat tet cannot tell: its mean is all there is.
     const std::array<Point, 4> flat{tet[0], tet[1], tet[2], (tet[0] + tet[1] + tet[2]) / 3.0};
     CHECK(through(flat, quadratic).bend.along({1, 1, 1}) == 0.0);
+}
+
+TEST_CASE("What the nearest linear function leaves of a tet's eleven values", "[quadratic]") {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<double> number(-1.0, 1.0);
+    std::array<double, 4> corners;
+    std::array<double, 6> middles;
+    const auto squares = [&](const std::array<double, 4>& f, double centroid) {
+        double sum = std::pow(0.25 * (f[0] + f[1] + f[2] + f[3]) - centroid, 2);
+        std::size_t edge = 0;
+        for (std::size_t i = 0; i < 4; ++i) {
+            sum += std::pow(f[i] - corners[i], 2);
+            for (std::size_t j = i + 1; j < 4; ++j)
+                sum += std::pow(0.5 * (f[i] + f[j]) - middles[edge++], 2);
+        }
+        return sum;
+    };
+    for (int trial = 0; trial < 20; ++trial) {
+        for (double& v : corners) v = number(random);
+        for (double& v : middles) v = number(random);
+        const double centroid = number(random), left = squares_left(corners, middles, centroid);
+        // Down the slope, exactly along one corner's value after another: the sum is quadratic.
+        std::array<double, 4> f{};
+        for (int sweep = 0; sweep < 200; ++sweep)
+            for (std::size_t i = 0; i < 4; ++i) {
+                const auto at = [&](double v) {
+                    f[i] = v;
+                    return squares(f, centroid);
+                };
+                const double below = at(-1.0), here = at(0.0), above = at(1.0);
+                f[i] = 0.5 * (below - above) / (below - 2.0 * here + above);
+            }
+        CHECK(left == Approx(squares(f, centroid)).epsilon(1e-9));
+        CHECK(left > 0.0);
+    }
+    // A linear function leaves nothing of itself.
+    corners = {1.0, 2.0, -0.5, 0.25};
+    middles = {1.5, 0.25, 0.625, 0.75, 1.125, -0.125};
+    CHECK(std::abs(squares_left(corners, middles, 0.6875)) < 1e-15);
 }
 
 TEST_CASE("What a bend gains along a ray is its integral", "[quadratic]") {
