@@ -17,11 +17,12 @@ import sys
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "support"))
 from verdicts import check, skip  # noqa: E402
 
-# Of the larger of a pixel's radiance and a thousandth of the mean. Single precision places a ray
-# on a leaf's face to 1e-7 of the room, and J changes by its own size across the smallest leaves,
-# a hundredth of the room: 1e-5; ten times that for grazing rays, which cross faces at which the
-# functions that fit best jump. Of a pixel's brightest channel.
-WORST = 1e-4
+# Of the larger of a pixel's radiance (its brightest channel's) and a thousandth of the mean. Single
+# precision places a ray on a leaf's face to 1e-7 of the room, and J changes by its own size across the
+# smallest leaves, a hundredth of the room: 1e-5, and some more where a ray crosses many. The few rays that
+# graze a face at which functions jump are told by rays beside them (self_test.js).
+WORST = 5e-5
+GRAZING = 0.005  # of all values
 FLAGS = ["--headless", "--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
          "--disable-dev-shm-usage", "--disable-background-networking",
          "--force-device-scale-factor=0.5"]  # few pixels: they are drawn without a GPU
@@ -295,6 +296,7 @@ def main():
         subprocess.run([tyndall, "run", scene, "-o", folder, "--quiet"], check=True)
     for camera in self_test(chromium, page, folder / "profile"):
         check(camera["worst"] < WORST, f"GPU and CPU agree: {camera}")
+        check(camera["grazing"] < GRAZING * 3 * camera["pixels"], "few rays graze faces")
     browser = Browser(webdriver, chromium, driver, page, folder / "profile")
     try:
         browser.open()
