@@ -17,6 +17,7 @@ namespace tyndall::radiosity {
 // To be used for one point after another: it keeps its memory.
 class BrightCones {
   public:
+    // A ray that is aimed at a bright place.
     struct Aimed {
         Direction direction;
         double weight;    // what it counts [-]

@@ -28,9 +28,11 @@ struct BrightPlace {
     // means, of all bands together [-].
     std::array<double, 2> brightness{};
 
+    // Or a ball.
     bool is_opening() const { return !triangles.empty(); }
 };
 
+// The bright places of a scene.
 class BrightPlaces {
   public:
     // Those of an enclosure in the light of `scene` and of what is looked at besides: openings of

@@ -135,6 +135,7 @@ struct IndirectSources {
     std::vector<Affine> in_mirrors{};  // GatherScene::set_in_mirrors
     std::vector<Affine> lit{};         // GatherScene::set_lit
 
+    // What gathers walk through with these.
     GatherScene scene(const Enclosure& enclosure, const Forest& forest) const;
 };
 
