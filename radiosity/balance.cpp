@@ -134,7 +134,8 @@ class Escape {
         const double cap = 1.0 - std::cos(half);
         for (std::size_t k = 0; k < points_.size(); ++k) {
             const auto u = points_(k, seed_);
-            const Direction omega = about(light.direction, 1.0 - cap * u[0], u[1]);
+            const Direction omega =
+                direction_about(glm::normalize(light.direction), 1.0 - cap * u[0], u[1]);
             const double weight = 2.0 * pi * cap * share() * spot_share(light, omega);
             from_point(light.position, omega,
                        [&](std::size_t b) { return weight * light.intensity[b]; });
@@ -156,20 +157,12 @@ class Escape {
                                         : mesh.hull_max[axis] - 1e-9 * size[axis];
                 x[s] = mesh.hull_min[s] + u[0] * size[s];
                 x[t] = mesh.hull_min[t] + u[1] * size[t];
-                const Direction ray = about(d, std::cos(0.5 * sun.angle * std::sqrt(u[3])), u[4]);
+                const Direction ray = direction_about(
+                    glm::normalize(d), std::cos(0.5 * sun.angle * std::sqrt(u[3])), u[4]);
                 const double weight = size[s] * size[t] * std::abs(d[axis]) * share();
                 from_point(x, ray, [&](std::size_t b) { return weight * sun.irradiance[b]; });
             }
         }
-    }
-
-    // The direction at an angle of the given cosine about an axis, turned by v of a full turn.
-    static Direction about(Direction axis, double cosine, double v) {
-        axis = glm::normalize(axis);
-        const Direction other = std::abs(axis.x) < 0.6 ? Direction(1, 0, 0) : Direction(0, 1, 0);
-        const auto a = glm::normalize(glm::cross(other, axis)), b = glm::cross(axis, a);
-        const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine)), phi = 2.0 * pi * v;
-        return cosine * axis + sine * (std::cos(phi) * a + std::sin(phi) * b);
     }
 
     const Enclosure& enclosure_;

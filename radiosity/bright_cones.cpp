@@ -186,13 +186,7 @@ std::pair<Direction, double> BrightCones::in_opening(std::size_t cone, double u,
 }
 
 std::pair<Direction, double> BrightCones::in_ball(const Cone& cone, double u, double v) const {
-    const Direction other = std::abs(cone.axis.x) < 0.6 ? Direction(1, 0, 0) : Direction(0, 1, 0);
-    const Direction across = glm::normalize(glm::cross(other, cone.axis));
-    const double cosine = 1.0 - u * (1.0 - cone.cosine);
-    const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine)), turn = 2.0 * pi * v;
-    return {cosine * cone.axis +
-                sine * (std::cos(turn) * across + std::sin(turn) * glm::cross(cone.axis, across)),
-            cone.solid_angle};
+    return {direction_about(cone.axis, 1.0 - u * (1.0 - cone.cosine), v), cone.solid_angle};
 }
 
 // Those that lie in a cone before this one as well have been aimed there.

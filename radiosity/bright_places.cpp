@@ -31,7 +31,6 @@ constexpr std::size_t most_triangles = 32;
 constexpr double about_lamp = 1.5, next_ball = 4.0;
 constexpr double smallest_ball = 1.0 / 512.0, largest_ball = 1.0 / 16.0;
 constexpr std::size_t most_lamps = 64;
-constexpr double corner_tolerance = 1e-9;  // as direct light has it
 
 // As few triangles as there may be for the same opening.
 std::vector<std::array<Point, 3>> few_triangles(const mesh::BaseMesh& mesh,
@@ -40,7 +39,7 @@ std::vector<std::array<Point, 3>> few_triangles(const mesh::BaseMesh& mesh,
     for (const FacetId f : group) facets.push_back(mesh.facets[f.value].corners);
     std::vector<std::array<Point, 3>> triangles;
     for (const auto& [corners, normal] : mesh::convex_merge(
-             mesh.points, facets, mesh::Facing::ignored, corner_tolerance * mesh::diagonal(mesh)))
+             mesh.points, facets, mesh::Facing::ignored, merge_tolerance * mesh::diagonal(mesh)))
         for (std::size_t k = 2; k < corners.size(); ++k)
             triangles.push_back({corners[0], corners[k - 1], corners[k]});
     return triangles;
@@ -121,7 +120,7 @@ Ball joined(const Ball& a, const Ball& b) {
 
 std::vector<Ball> lamps_of(const Enclosure& enclosure) {
     std::vector<Ball> lamps;
-    for (const LightCone& light : shining_lights(enclosure, true, corner_tolerance).cones) {
+    for (const LightCone& light : shining_lights(enclosure, true, merge_tolerance).cones) {
         if (light.infinite) continue;
         const auto near = std::ranges::find_if(lamps, [&](const Ball& lamp) {
             return glm::distance(lamp.centre, light.centre) <= 2.0 * (lamp.radius + light.radius);
@@ -186,7 +185,7 @@ BrightPlace looked_at(const Enclosure& enclosure, const GatherScene& scene, cons
     const PointSet points(looks);
     BrightPlace opening;
     opening.triangles = few_triangles(enclosure.mesh, group);
-    if (opening.triangles.size() > most_triangles) return opening;
+    if (opening.triangles.empty() || opening.triangles.size() > most_triangles) return opening;
     opening.normal = mesh::normal(enclosure.mesh, group.front());
     const auto before = arriving(enclosure, scene, look, group, opening.normal, points, seed);
     const auto behind = arriving(enclosure, scene, look, group, -opening.normal, points, seed);

@@ -24,7 +24,6 @@ namespace {
 using std::numbers::pi;
 // Of the mesh's diagonal: above what rounding does to points computed on a plane.
 constexpr double plane_rounding = 1e-10;
-constexpr double merge_tolerance = 1e-11;
 // Occluders × points beyond which none is tested for being an outer wall.
 constexpr double most_wall_tests = 2e8;
 

@@ -5,6 +5,8 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "radiosity/point_set.h"
+
 namespace tyndall::radiosity {
 namespace {
 
@@ -39,12 +41,7 @@ double phase_value(const PhaseFunction& phase, double cosine) {
 
 Direction sample_phase(const PhaseFunction& phase, Direction before, double u, double v) {
     const double cosine = std::clamp(sample_cosine(phase, u), -1.0, 1.0);
-    const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
-    const Direction axis = std::abs(before.x) < 0.6 ? Direction(1, 0, 0) : Direction(0, 1, 0);
-    const Direction across = glm::normalize(glm::cross(axis, before));
-    const Direction up = glm::cross(before, across);
-    const double turn = 2.0 * pi * v;
-    return glm::normalize(cosine * before + sine * (std::cos(turn) * across + std::sin(turn) * up));
+    return glm::normalize(direction_about(before, cosine, v));
 }
 
 }  // namespace tyndall::radiosity

@@ -172,6 +172,15 @@ mesh::Direction cosine_direction(mesh::Direction n, double u, double v) {
                           std::sqrt(std::max(1e-12, 1.0 - u)) * n);
 }
 
+mesh::Direction direction_about(mesh::Direction axis, double cosine, double v) {
+    const mesh::Direction other =
+        std::abs(axis.x) < 0.6 ? mesh::Direction(1, 0, 0) : mesh::Direction(0, 1, 0);
+    const auto a = glm::normalize(glm::cross(other, axis)), b = glm::cross(axis, a);
+    const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+    const double turn = 2.0 * std::numbers::pi * v;
+    return cosine * axis + sine * (std::cos(turn) * a + std::sin(turn) * b);
+}
+
 std::array<double, 3> uniform_in_triangle(double u, double v) {
     const double r = std::sqrt(u);
     return {1.0 - r, r * (1.0 - v), r * v};

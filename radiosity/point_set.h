@@ -62,6 +62,8 @@ inline double unit_number(std::uint64_t bits) {
 mesh::Direction uniform_direction(double u, double v);
 // Cosine-weighted about the unit vector n: density cosθ/π.
 mesh::Direction cosine_direction(mesh::Direction n, double u, double v);
+// The direction at an angle of the given cosine about a unit axis, turned by v of a full turn.
+mesh::Direction direction_about(mesh::Direction axis, double cosine, double v);
 // Barycentric weights of uniform points in a triangle and in a tetrahedron.
 std::array<double, 3> uniform_in_triangle(double u, double v);
 std::array<double, 4> uniform_in_tet(double u, double v, double w);

@@ -39,6 +39,9 @@ struct ShiningLights {
 // Whether anything in it is not 0.
 bool shines(const Spectrum& spectrum);
 
+// Corners that are nearer to each other than this share of the mesh's diagonal are one [-].
+inline constexpr double merge_tolerance = 1e-11;
+
 // Purpose: what shines. `emitters`: sides that emit are lights, too; their facets are merged to
 //   convex polygons, corners within `tolerance` of the mesh's diagonal being one.
 // Cost: O(tets + facets).
